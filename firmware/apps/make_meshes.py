@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Makes the mesh headers of the demo and of the benchmark.
+
+    firmware/apps/make_meshes.py                      demo/meshes, from nothing but the modules in mesh_sources
+    firmware/apps/make_meshes.py --bench scenes.npz   bench/meshes, from the benchmark's scenes
+    ... -o FOLDER                                     into another folder, for comparison
+
+The headers are committed; a test makes them again and compares byte for byte.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from mesh_sources.headers import EdgelineError, bench_headers, demo_headers, write_whole
+
+APPS = Path(__file__).resolve().parent
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Makes the mesh headers of the demo, or of the benchmark.")
+    parser.add_argument("--bench", type=Path, metavar="FILE.npz", help="the benchmark's scenes; makes its headers")
+    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the meshes folder in the tree")
+    args = parser.parse_args()
+    folder = args.output or APPS / ("bench" if args.bench else "demo") / "meshes"
+    try:
+        headers = bench_headers(args.bench) if args.bench else demo_headers()
+        for name, text in headers.items():
+            write_whole(folder / f"{name}.h", text.encode())
+            print(f"{folder.name}/{name}.h: {len(text):,} characters")
+    except EdgelineError as error:
+        print(f"make_meshes: {error}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

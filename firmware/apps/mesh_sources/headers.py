@@ -1,0 +1,25 @@
+"""The meshes' C headers as text, by name; and, for the script beside this package, how to write them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from edgeline.convert.files import write_whole
+from edgeline.convert.header import c_header
+from edgeline.errors import EdgelineError
+from mesh_sources import bench, demo
+
+__all__ = ["EdgelineError", "bench_headers", "demo_headers", "write_whole"]
+
+
+def demo_headers() -> dict[str, str]:
+    """The headers of the demo."""
+    made_by = "Made by firmware/apps/make_meshes.py; do not edit."
+    return {name: c_header(name, [demo.ABOUT[name], made_by], [mesh]) for name, mesh in demo.all_meshes().items()}
+
+
+def bench_headers(scenes: Path) -> dict[str, str]:
+    """The headers of the benchmark. Raises EdgelineError when `scenes` cannot be read."""
+    made_by = "Made by firmware/apps/make_meshes.py --bench; do not edit."
+    meshes_of = bench.all_scenes(bench.load(scenes))
+    return {name: c_header(name, [bench.ABOUT[name], made_by], meshes) for name, meshes in meshes_of.items()}

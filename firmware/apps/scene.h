@@ -1,0 +1,29 @@
+/* What a scene is: a camera path and a list of things to draw, both functions of the frame's number alone, so that any
+ * program that plays it gets the same pictures. */
+#ifndef EL_APPS_SCENE_H
+#define EL_APPS_SCENE_H
+
+#include <stddef.h>
+
+#include "edgeline.h"
+
+typedef struct el_scene {
+    const char *name;
+    const char *summary; /* one line */
+    uint16_t background; /* RGB565 */
+    void (*place_camera)(uint32_t frame, el_camera *camera);
+    /* Submits the scene; called once per pass. */
+    el_status (*draw)(uint32_t frame, el_renderer *renderer);
+} el_scene;
+
+/* All scenes: the demo's, then the benchmark's. */
+size_t el_scene_count(void);
+const el_scene *el_scene_at(size_t index);
+
+/* NULL when there is no such scene. */
+const el_scene *el_scene_find(const char *name);
+
+/* Draws frame number `frame` of `scene`, all passes, and hands it to the renderer's sinks. EL_OK or an error. */
+el_status el_scene_play(const el_scene *scene, uint32_t frame, el_renderer *renderer);
+
+#endif

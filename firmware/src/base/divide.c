@@ -1,0 +1,46 @@
+#include "base/divide.h"
+
+#include "base/fixed.h"
+
+/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
+ * one, a short routine elsewhere. */
+static uint32_t reciprocal_word(uint32_t d)
+{
+    const uint32_t d10 = d >> 22;        /* 512..1023 */
+    const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
+    const uint32_t d31 = (d >> 1) + (d & 1U);
+    const uint32_t v0 = ((1U << 24) - (1U << 14) + (1U << 9)) / d10;                    /* below 2^15 */
+    const uint32_t v1 = (v0 << 4) - (uint32_t)(((uint64_t)(v0 * v0) * d21) >> 32) - 1U; /* v0^2 < 2^30 */
+    const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
+    const uint32_t v2 = (v1 << 15) + (uint32_t)(((uint64_t)v1 * e) >> 33);
+    /* (v2 + 2^32 + 1) * d / 2^32, modulo 2^32 */
+    const uint32_t high = (uint32_t)(((uint64_t)v2 * d + d) >> 32);
+    return v2 - (high + d);
+}
+
+el_divisor el_divisor_make(uint32_t d)
+{
+    el_divisor divisor;
+    divisor.shift = (uint8_t)(32 - el_bit_length_u32(d));
+    /* NOLINTNEXTLINE(clang-analyzer-core.*): d >= 1, so the shift is 31 at most. */
+    divisor.normalised = d << divisor.shift;
+    divisor.reciprocal = reciprocal_word(divisor.normalised);
+    return divisor;
+}
+
+int64_t el_divide_q32(int64_t n, const el_divisor *divisor)
+{
+    const uint64_t magnitude = el_abs_u64(n);
+    const unsigned shift = divisor->shift;
+    /* n << shift in three words; the top one is below 2^31 because shift <= 31, so one subtraction reduces it. */
+    uint32_t rest = shift == 0 ? 0U : (uint32_t)(magnitude >> (64 - shift));
+    const uint64_t shifted = magnitude << shift;
+    if (rest >= divisor->normalised) {
+        rest -= divisor->normalised;
+    }
+    (void)el_divide_words(rest, (uint32_t)(shifted >> 32), divisor, &rest);
+    const uint32_t whole = el_divide_words(rest, (uint32_t)shifted, divisor, &rest);
+    const uint32_t fraction = el_divide_words(rest, 0, divisor, &rest);
+    const uint64_t quotient = ((uint64_t)whole << 32) | fraction;
+    return (int64_t)(n < 0 ? 0 - quotient : quotient);
+}

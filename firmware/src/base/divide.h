@@ -1,0 +1,60 @@
+/* Exact division by a number that is used several times: one reciprocal, then a product or two per quotient.
+ *
+ * Möller and Granlund, "Improved division by invariant integers", IEEE Transactions on Computers 60(2), 2011:
+ * algorithm 2 makes the reciprocal of a 32-bit word, algorithm 4 divides two words by one. The quotients are exact, so a
+ * core with a fast divider may divide instead and get the same pixels. */
+#ifndef EL_BASE_DIVIDE_H
+#define EL_BASE_DIVIDE_H
+
+#include <stdint.h>
+
+typedef struct el_divisor {
+    uint32_t normalised; /* d << shift, with its top bit set */
+    uint32_t reciprocal; /* floor((2^64 - 1) / normalised) - 2^32 */
+    uint8_t shift;       /* 0..31 */
+} el_divisor;
+
+/* Pre: d >= 1. */
+el_divisor el_divisor_make(uint32_t d);
+
+/* floor((high * 2^32 + low) / normalised); *remainder gets the rest. Pre: high < normalised. */
+static inline uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder)
+{
+    const uint32_t d = divisor->normalised;
+    const uint64_t product = (uint64_t)divisor->reciprocal * high + (((uint64_t)high << 32) | low);
+    uint32_t quotient = (uint32_t)(product >> 32) + 1U;
+    uint32_t rest = low - quotient * d;
+    if (rest > (uint32_t)product) {
+        quotient--;
+        rest += d;
+    }
+    if (rest >= d) {
+        quotient++;
+        rest -= d;
+    }
+    *remainder = rest;
+    return quotient;
+}
+
+/* floor(n / d). Pre: the quotient fits 32 bits. */
+static inline uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor)
+{
+    const uint64_t shifted = n << divisor->shift; /* n < d * 2^32 and d << shift < 2^32: below 2^64 */
+    uint32_t remainder;
+    return el_divide_words((uint32_t)(shifted >> 32), (uint32_t)shifted, divisor, &remainder);
+}
+
+/* floor(n / d) for signed n. Pre: -2^31 <= n / d < 2^31. */
+static inline int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
+{
+    /* For n < 0, floor(n / d) = -1 - floor((-n - 1) / d), and -n - 1 = ~n. */
+    const uint32_t sign = n < 0 ? 0xFFFFFFFFU : 0U;
+    const uint64_t magnitude = n < 0 ? ~(uint64_t)n : (uint64_t)n;
+    return (int32_t)(el_divide_u64(magnitude, divisor) ^ sign);
+}
+
+/* n / d as Q32, truncated towards zero, modulo 2^64: the 32 low bits of the whole part and 32 bits of fraction.
+ * Any n but INT64_MIN. */
+int64_t el_divide_q32(int64_t n, const el_divisor *divisor);
+
+#endif

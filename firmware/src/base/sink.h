@@ -1,0 +1,58 @@
+/* Where finished bands go: a panel, a stream, a test.
+ *
+ * A band is a few whole lines of RGB565. Ownership is explicit: the renderer lends a band to each sink by `rows`, and
+ * may not touch its pixels until every sink has given it back by el_band_release. A sink may release inside `rows`
+ * (it copied or sent the pixels) or later, from an interrupt too (its DMA has ended). The renderer has two bands, so
+ * one can be on its way while the next is drawn. */
+#ifndef EL_BASE_SINK_H
+#define EL_BASE_SINK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/stats.h"
+
+enum { EL_MAX_SINKS = 3 };
+
+typedef struct el_band {
+    uint16_t *pixels;      /* lines * width pixels, row by row, native-endian RGB565 */
+    const uint16_t *depth; /* the same shape, 0 near, 65535 empty; valid during `rows` only */
+    uint16_t width;        /* pixels per line */
+    uint16_t y;            /* first line on the screen */
+    uint16_t lines;        /* lines in this band; the last band of a frame may have fewer than the others */
+    volatile uint8_t held[EL_MAX_SINKS]; /* not 0 while that sink has the band; each byte has one writer at a time,
+                                            so an interrupt may clear it without a lock */
+} el_band;
+
+/* Gives `band` back. `slot` is the number that `rows` was called with. Safe in interrupts. */
+static inline void el_band_release(el_band *band, unsigned slot)
+{
+    band->held[slot] = 0;
+}
+
+static inline bool el_band_is_free(const el_band *band)
+{
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        if (band->held[i] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* All four functions get `context`. For each frame: begin, then rows for bands from the top to the bottom without a
+ * gap, then end. */
+typedef struct el_sink {
+    void *context;
+    /* A frame of width x height pixels starts. */
+    void (*begin)(void *context, uint16_t width, uint16_t height);
+    /* Takes `band`; the sink owns it until el_band_release(band, slot). */
+    void (*rows)(void *context, el_band *band, unsigned slot);
+    /* The frame's last band has been handed over (it may still be on its way). */
+    void (*end)(void *context, const el_stats *stats);
+    /* Called again and again while the renderer waits for a band: drive the transfer, or sleep until an interrupt.
+     * May be NULL. */
+    void (*wait)(void *context);
+} el_sink;
+
+#endif

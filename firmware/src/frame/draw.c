@@ -1,0 +1,331 @@
+/* el_draw: from a mesh to records on the display list. */
+#include <string.h>
+
+#include "base/fixed.h"
+#include "frame/bands.h"
+#include "geometry/clip.h"
+
+/* The mesh's vertices on the screen, at the end of the list's memory. `direct`: all of them, each transformed once
+ * before the triangles are looked at. Otherwise a direct-mapped cache, for meshes that do not fit: a vertex is
+ * transformed when a triangle asks for it and may be asked for again after another took its place. */
+typedef struct cached_vertex {
+    uint16_t index; /* 0xFFFF: none; meshes have at most 65535 vertices */
+    el_screen_vertex vertex;
+} cached_vertex;
+
+_Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(cached_vertex) == 12, "no padding");
+
+typedef struct drawing {
+    el_renderer *renderer;
+    const el_mesh *mesh;
+    el_draw_state state;
+    el_transform transform;
+    bool direct;
+    bool perspective_records;
+    uint32_t capacity; /* vertices in the cache */
+    void *vertices;    /* el_screen_vertex[] or cached_vertex[] */
+} drawing;
+
+static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
+{
+    const el_clip_vertex clip = el_transform_position(&d->transform, d->mesh->positions[index]);
+    const uint8_t code = el_outcode(&d->transform, &clip);
+    if ((code & EL_CODE_CLIP) == 0) {
+        el_project(&d->transform, &clip, screen);
+    }
+    screen->code = code;
+    d->renderer->stats.vertices++;
+}
+
+/* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
+static void place_vertices(drawing *d)
+{
+    el_renderer *const renderer = d->renderer;
+    el_list *const list = &renderer->list;
+    uint8_t *const list_end = list->base + renderer->list_bytes;
+    const uint32_t depth_bytes = renderer->band_is_open ? 0U
+                                                        : EL_DEPTH_BAND_BYTES((uint32_t)renderer->config.width,
+                                                                              (uint32_t)renderer->config.band_lines);
+    const uint32_t free_bytes = renderer->list_bytes - list->used;
+    const uint32_t direct_bytes = d->mesh->vertex_count * (uint32_t)sizeof(el_screen_vertex);
+    uint32_t bytes;
+    if (direct_bytes <= depth_bytes + free_bytes / 4) {
+        d->direct = true;
+        bytes = EL_ROUND_UP_8(direct_bytes);
+    } else {
+        d->direct = false;
+        bytes = (depth_bytes + free_bytes / 8) / 8 * 8;
+        d->capacity = bytes / (uint32_t)sizeof(cached_vertex);
+    }
+    list->end = renderer->list_bytes - (bytes > depth_bytes ? bytes - depth_bytes : 0U);
+    d->vertices = list_end + depth_bytes - bytes;
+
+    if (d->direct) {
+        el_screen_vertex *const vertices = d->vertices;
+        for (uint32_t i = 0; i < d->mesh->vertex_count; i++) {
+            transform_vertex(d, i, &vertices[i]);
+        }
+        return;
+    }
+    cached_vertex *const cache = d->vertices;
+    for (uint32_t i = 0; i < d->capacity; i++) {
+        cache[i].index = 0xFFFF;
+    }
+}
+
+static el_screen_vertex vertex_at(drawing *d, uint16_t index)
+{
+    if (d->direct) {
+        return ((const el_screen_vertex *)d->vertices)[index];
+    }
+    /* NOLINTNEXTLINE(clang-analyzer-core.*): place_vertices leaves room for two vertices at least. */
+    cached_vertex *const slot = (cached_vertex *)d->vertices + index % d->capacity;
+    if (slot->index != index) {
+        slot->index = index;
+        transform_vertex(d, index, &slot->vertex);
+    }
+    return slot->vertex;
+}
+
+/* The list is full. Gives up the last quarter of the pass' bands, or draws the list where there is one band only.
+ * Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
+static bool make_room(el_renderer *renderer)
+{
+    const int32_t bands = renderer->pass_end - renderer->pass_begin;
+    if (bands > 1) {
+        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 3 / 4);
+        const int32_t lines = renderer->config.band_lines;
+        el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
+        return false;
+    }
+    const bool was_open = renderer->band_is_open;
+    el_bands_flush(renderer);
+    return !was_open;
+}
+
+static void fill_plain(el_record *record, uint16_t index, const el_screen_vertex v[3])
+{
+    record->index = index;
+    for (unsigned i = 0; i < 3; i++) {
+        record->at.points[i] = (el_point){.x = v[i].x, .y = v[i].y, .z = v[i].z};
+    }
+}
+
+static void fill_perspective(el_record *record, const el_screen_vertex v[3])
+{
+    el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
+    unsigned shifts = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        perspective->w[i] = v[i].w;
+        shifts |= (unsigned)v[i].w_shift << (5 * i);
+    }
+    perspective->w_shifts = (uint16_t)shifts;
+}
+
+static void fill_clipped(el_record *record, const el_clip_corner *const corners[3])
+{
+    el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t *const a = corners[i]->attributes;
+        clipped->attributes[i] = (el_attributes){
+            .u_q16 = a[0],
+            .v_q16 = a[1],
+            .rgb_q8 = {(uint16_t)a[2], (uint16_t)a[3], (uint16_t)a[4]},
+        };
+    }
+}
+
+/* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. */
+static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3], const el_clip_corner *const cut[3])
+{
+    el_renderer *const renderer = d->renderer;
+    el_stats *const stats = &renderer->stats;
+    const int32_t x[3] = {v[0].x, v[1].x, v[2].x};
+    const int32_t y[3] = {v[0].y, v[1].y, v[2].y};
+
+    const int64_t area = el_doubled_area(x, y);
+    if (area == 0) {
+        stats->triangles_empty++;
+        return;
+    }
+    if (el_shows_back(&d->state, area) && (d->state.material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
+        stats->triangles_backface++;
+        return;
+    }
+    const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
+    const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
+    const int32_t y_begin = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])));
+    const int32_t y_end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])));
+    if (x_begin >= x_end || y_begin >= y_end) {
+        stats->triangles_empty++;
+        return;
+    }
+    if (x_end <= 0 || x_begin >= renderer->config.width || y_end <= 0 || y_begin >= renderer->config.height) {
+        stats->triangles_outside++;
+        return;
+    }
+
+    const int32_t lines = renderer->config.band_lines;
+    const int32_t pass_row = renderer->pass_begin * lines;
+    const int32_t row = el_max_i32(y_begin, pass_row);
+    const el_record_kind kind = cut != NULL              ? EL_RECORD_CLIPPED
+                                : d->perspective_records ? EL_RECORD_PERSPECTIVE
+                                                         : EL_RECORD_PLAIN;
+    el_record *record = NULL;
+    while (record == NULL) {
+        if (y_end <= pass_row || row >= renderer->pass_end * lines) {
+            stats->triangles_other++;
+            return;
+        }
+        record = el_list_append(&renderer->list, &d->state, kind, row);
+        if (record == NULL && make_room(renderer)) {
+            place_vertices(d);
+        }
+    }
+    stats->triangles_listed++;
+    fill_plain(record, index, v);
+    if (kind != EL_RECORD_PLAIN) {
+        fill_perspective(record, v);
+    }
+    if (kind == EL_RECORD_CLIPPED) {
+        fill_clipped(record, cut);
+    }
+}
+
+/* Which side of the triangle the camera sees, before it is cut: the light needs it. */
+static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
+{
+    /* Sign of the determinant of the (x, y, w) rows, with 20 bits of each: what is turned by less looks alike lit from
+     * either side. */
+    int64_t c[3][3];
+    for (unsigned i = 0; i < 3; i++) {
+        c[i][0] = v[i].x / (1 << 10);
+        c[i][1] = v[i].y / (1 << 10);
+        c[i][2] = v[i].w / (1 << 10);
+    }
+    const int64_t det = c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) -
+                        c[0][1] * (c[1][0] * c[2][2] - c[1][2] * c[2][0]) +
+                        c[0][2] * (c[1][0] * c[2][1] - c[1][1] * c[2][0]);
+    return (det < 0) != (draw->mirrored != 0);
+}
+
+static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
+{
+    const uint16_t *const vertices = d->mesh->triangles[index];
+    const el_material *const material = d->state.material;
+    const bool coloured = material->shading == EL_SHADE_GOURAUD || material->shading == EL_SHADE_TEXTURED_GOURAUD;
+    el_clip_corner corners[EL_CLIP_MAX_VERTICES];
+    el_clip_vertex clip[3];
+    for (unsigned i = 0; i < 3; i++) {
+        clip[i] = el_transform_position(&d->transform, d->mesh->positions[vertices[i]]);
+    }
+    const bool turned = coloured && material->light != NULL && seen_from_back(&d->state, clip);
+    for (unsigned i = 0; i < 3; i++) {
+        corners[i] = (el_clip_corner){.position = clip[i]};
+        if (d->perspective_records) {
+            corners[i].attributes[0] = d->mesh->uvs[vertices[i]][0] * (1 << 12);
+            corners[i].attributes[1] = d->mesh->uvs[vertices[i]][1] * (1 << 12);
+        }
+        if (coloured) {
+            uint16_t rgb_q8[3];
+            el_shade_vertex(&d->state, vertices[i], turned, rgb_q8);
+            for (unsigned channel = 0; channel < 3; channel++) {
+                corners[i].attributes[2 + channel] = rgb_q8[channel];
+            }
+        }
+    }
+    const unsigned count = el_clip_polygon(&d->transform, corners, 3, codes);
+    d->renderer->stats.triangles_clipped++;
+    if (count == 0) {
+        d->renderer->stats.triangles_outside++;
+        return;
+    }
+    el_screen_vertex screen[EL_CLIP_MAX_VERTICES];
+    for (unsigned i = 0; i < count; i++) {
+        el_project(&d->transform, &corners[i].position, &screen[i]);
+    }
+    for (unsigned i = 2; i < count; i++) {
+        const el_screen_vertex fan[3] = {screen[0], screen[i - 1], screen[i]};
+        const el_clip_corner *const cut[3] = {&corners[0], &corners[i - 1], &corners[i]};
+        add_triangle(d, index, fan, cut);
+    }
+}
+
+static void draw_triangles(drawing *d)
+{
+    el_stats *const stats = &d->renderer->stats;
+    for (uint32_t i = 0; i < d->mesh->triangle_count; i++) {
+        const uint16_t *const vertices = d->mesh->triangles[i];
+        const el_screen_vertex v[3] = {vertex_at(d, vertices[0]), vertex_at(d, vertices[1]), vertex_at(d, vertices[2])};
+        stats->triangles++;
+        if ((v[0].code & v[1].code & v[2].code & EL_CODE_OUTSIDE) != 0) {
+            stats->triangles_outside++;
+            continue;
+        }
+        const uint8_t codes = v[0].code | v[1].code | v[2].code;
+        if ((codes & EL_CODE_CLIP) != 0) {
+            clip_triangle(d, (uint16_t)i, codes);
+        } else {
+            add_triangle(d, (uint16_t)i, v, NULL);
+        }
+    }
+}
+
+static el_status check(const el_mesh *mesh, const el_material *material)
+{
+    if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
+        return EL_ERROR_SIZE;
+    }
+    const bool textured = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
+    if (material->shading > EL_SHADE_OVERDRAW ||
+        (textured && (material->texture == NULL || mesh->uvs == NULL || material->texture->width_log2 > 10 ||
+                      material->texture->height_log2 > 10)) ||
+        (material->light != NULL && mesh->normals == NULL)) {
+        return EL_ERROR_MATERIAL;
+    }
+    return EL_OK;
+}
+
+el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material)
+{
+    if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
+        return EL_ERROR_ARGUMENT;
+    }
+    const el_status status = check(mesh, material);
+    if (status != EL_OK) {
+        return status;
+    }
+    renderer->stats.draws++;
+    drawing d = {.renderer = renderer, .mesh = mesh};
+    const int visibility = el_transform_make(&d.transform, &renderer->view, mesh, pose);
+    if (visibility < 0) {
+        return (el_status)visibility;
+    }
+    if (visibility == EL_CULLED) {
+        renderer->stats.draws_culled++;
+        return EL_OK;
+    }
+    d.state = (el_draw_state){.mesh = mesh, .material = material, .mirrored = d.transform.mirrored};
+    if (material->light != NULL) {
+        /* Into model space, by the transposed rotation. */
+        for (unsigned i = 0; i < 3; i++) {
+            int64_t dot = 0;
+            for (unsigned j = 0; j < 3; j++) {
+                dot += (int64_t)material->light->direction_q30[j] * pose->rotation_q30[j][i];
+            }
+            const int64_t component = el_shift_i64(dot, 46);
+            d.state.light_q14[i] = (int16_t)(component > 16384 ? 16384 : (component < -16384 ? -16384 : component));
+        }
+    }
+    d.perspective_records = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
+    el_list_end_run(&renderer->list);
+    /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
+    while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {
+        (void)make_room(renderer);
+    }
+    place_vertices(&d);
+    draw_triangles(&d);
+    renderer->list.end = renderer->list_bytes;
+    return EL_OK;
+}

@@ -1,0 +1,109 @@
+#include "frame/renderer.h"
+
+#include "base/fixed.h"
+#include "frame/bands.h"
+
+el_status el_init(el_renderer *renderer, const el_config *config)
+{
+    if (renderer == NULL || config == NULL || config->memory == NULL || ((uintptr_t)config->memory & 7U) != 0) {
+        return EL_ERROR_ARGUMENT;
+    }
+    if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
+        config->band_lines < 1 || config->band_lines > config->height) {
+        return EL_ERROR_SIZE;
+    }
+    const uint32_t width = config->width;
+    const uint32_t lines = config->band_lines;
+    if (config->memory_bytes < EL_MIN_MEMORY_BYTES(width, config->height, lines) || config->memory_bytes > UINT32_MAX) {
+        return EL_ERROR_MEMORY;
+    }
+    *renderer = (el_renderer){.config = *config};
+    renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
+    renderer->pass_bands = renderer->band_count;
+
+    /* colour band, colour band, bins, list ..., depth band: the vertices of a draw lie at the end of the list's memory
+     * and reach over the depth band while no band is open. */
+    uint8_t *const memory = config->memory;
+    const uint32_t colour_bytes = EL_COLOUR_BAND_BYTES(width, lines);
+    const uint32_t bins_at = 2 * colour_bytes;
+    const uint32_t list_at = bins_at + EL_BIN_BYTES(config->height, lines);
+    const uint32_t depth_at = (uint32_t)(config->memory_bytes / 8 * 8) - EL_DEPTH_BAND_BYTES(width, lines);
+    for (unsigned i = 0; i < 2; i++) {
+        renderer->bands[i].pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
+        renderer->bands[i].width = config->width;
+    }
+    renderer->depth = (uint16_t *)(void *)(memory + depth_at);
+    renderer->bands[0].depth = renderer->depth;
+    renderer->bands[1].depth = renderer->depth;
+    renderer->list_bytes = depth_at - list_at;
+    if (renderer->list_bytes > EL_LIST_MAX_BYTES) {
+        /* What names cannot reach stays unused, between the list and the depth band. */
+        renderer->depth = (uint16_t *)(void *)(memory + list_at + EL_LIST_MAX_BYTES);
+        renderer->bands[0].depth = renderer->depth;
+        renderer->bands[1].depth = renderer->depth;
+        renderer->list_bytes = EL_LIST_MAX_BYTES;
+    }
+    el_list_init(&renderer->list, memory + list_at, renderer->list_bytes, (uint16_t *)(void *)(memory + bins_at),
+                 renderer->band_count, config->band_lines);
+    return EL_OK;
+}
+
+static void begin_pass(el_renderer *renderer, uint16_t first_band)
+{
+    renderer->pass_begin = first_band;
+    renderer->pass_end = (uint16_t)el_min_i32(renderer->band_count, (int32_t)first_band + renderer->pass_bands);
+    renderer->stats.passes++;
+}
+
+el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
+{
+    if (renderer == NULL || camera == NULL || renderer->in_frame) {
+        return EL_ERROR_ARGUMENT;
+    }
+    const el_status status = el_view_make(&renderer->view, camera, renderer->config.width, renderer->config.height);
+    if (status != EL_OK) {
+        return status;
+    }
+    renderer->stats = (el_stats){0};
+    renderer->in_frame = 1;
+    begin_pass(renderer, 0);
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        const el_sink *const sink = renderer->config.sinks[i];
+        if (sink != NULL) {
+            sink->begin(sink->context, renderer->config.width, renderer->config.height);
+        }
+    }
+    return EL_OK;
+}
+
+int el_frame_next(el_renderer *renderer)
+{
+    if (renderer == NULL || !renderer->in_frame) {
+        return EL_ERROR_ARGUMENT;
+    }
+    el_bands_finish(renderer);
+
+    /* What fitted this time fits again, and perhaps a little more: scenes change slowly. */
+    const int32_t fitted = renderer->pass_end - renderer->pass_begin;
+    if (renderer->pass_end < renderer->band_count) {
+        renderer->pass_bands = (uint16_t)(fitted + fitted / 4 + 1);
+        begin_pass(renderer, renderer->pass_end);
+        return 1;
+    }
+    if (renderer->pass_begin == 0) {
+        renderer->pass_bands = renderer->band_count;
+    }
+    renderer->in_frame = 0;
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        const el_sink *const sink = renderer->config.sinks[i];
+        if (sink != NULL) {
+            sink->end(sink->context, &renderer->stats);
+        }
+    }
+    return 0;
+}
+
+const el_stats *el_frame_stats(const el_renderer *renderer)
+{
+    return &renderer->stats;
+}

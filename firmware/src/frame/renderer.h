@@ -1,0 +1,105 @@
+/* The renderer: frames made of passes, passes made of bands.
+ *
+ *     el_frame_begin(&r, &camera);
+ *     do {
+ *         el_draw(&r, &mesh, &pose, &material);
+ *     } while (el_frame_next(&r) > 0);
+ *
+ * A pass collects the triangles of as many bands as the arena has room for, draws them band by band and hands the bands
+ * to the sinks. When the list fills up while it is being collected, the pass gives up its lower bands, which a further
+ * pass draws; the caller's loop submits the scene again. A pass of one band cannot shrink: it draws what it has into
+ * the band and goes on collecting. So every frame gets drawn, in any arena that el_init accepts, with the same pixels:
+ * which triangle wins a pixel depends on depth and order of submission alone. */
+#ifndef EL_FRAME_RENDERER_H
+#define EL_FRAME_RENDERER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/sink.h"
+#include "base/stats.h"
+#include "base/status.h"
+#include "geometry/mesh.h"
+#include "geometry/pose.h"
+#include "geometry/transform.h"
+#include "raster/list.h"
+#include "raster/material.h"
+
+/* Bytes that one listed triangle takes: flat and Gouraud; textured. */
+#define EL_TRIANGLE_BYTES 24
+#define EL_TEXTURED_TRIANGLE_BYTES 32
+#define EL_VERTEX_BYTES 10
+
+enum {
+    EL_MIN_LIST_BYTES = 512, /* room for a run, a cut triangle and a few vertices at a time */
+    EL_RUN_BYTES = 32        /* per draw call, at most */
+};
+
+#define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
+#define EL_MAX_OF(a, b) ((a) > (b) ? (a) : (b))
+/* Two colour bands, the depth band, and the bins of a screen. */
+#define EL_COLOUR_BAND_BYTES(width, band_lines) EL_ROUND_UP_8(2U * (width) * (band_lines))
+#define EL_DEPTH_BAND_BYTES(width, band_lines) EL_ROUND_UP_8(2U * (width) * (band_lines))
+#define EL_BIN_BYTES(height, band_lines) EL_ROUND_UP_8(2U * (((height) + (band_lines)-1U) / (band_lines)))
+
+/* An arena in which a frame of `draws` draw calls of meshes of at most `vertices` vertices each, with `triangles` visible
+ * textured triangles in all, takes one pass (24/32 of that for triangles without textures). While triangles are
+ * collected the vertices lie in the depth band, which is not in use then, and beside it where that is too small.
+ * Less memory costs passes, never pixels. */
+#define EL_MEMORY_BYTES(width, height, band_lines, vertices, triangles, draws)                                         \
+    (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
+     EL_MAX_OF(EL_DEPTH_BAND_BYTES(width, band_lines), EL_ROUND_UP_8((vertices)*EL_VERTEX_BYTES)) +                    \
+     (triangles)*EL_TEXTURED_TRIANGLE_BYTES + (draws)*EL_RUN_BYTES + 8U)
+
+/* The least that el_init accepts. */
+#define EL_MIN_MEMORY_BYTES(width, height, band_lines)                                                                 \
+    (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
+     EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES)
+
+typedef struct el_config {
+    uint16_t width;                     /* pixels, 1..EL_MAX_WIDTH */
+    uint16_t height;                    /* lines, 1..EL_MAX_HEIGHT */
+    uint16_t band_lines;                /* lines per band, 1..height */
+    uint16_t background;                /* RGB565 */
+    void *memory;                       /* the arena, the renderer's until the last frame is done; aligned to 8 bytes */
+    size_t memory_bytes;                /* at least EL_MIN_MEMORY_BYTES */
+    const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
+} el_config;
+
+/* Owned by the caller; its members are the renderer's. */
+typedef struct el_renderer {
+    el_config config;
+    el_view view;
+    el_list list;
+    el_band bands[2];
+    uint16_t *depth;
+    uint32_t list_bytes; /* all that lies between the bins and the depth band */
+    uint16_t band_count;
+    uint16_t pass_begin; /* bands of this pass */
+    uint16_t pass_end;
+    uint16_t pass_bands;  /* what the next pass tries for */
+    uint8_t current;      /* which of `bands` is drawn into next */
+    uint8_t band_is_open; /* it is cleared, and part of its triangles are drawn */
+    uint8_t in_frame;
+    el_stats stats;
+} el_renderer;
+
+/* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. */
+el_status el_init(el_renderer *renderer, const el_config *config);
+
+/* Starts a frame. EL_ERROR_CAMERA or EL_ERROR_RANGE for a camera that cannot be used; no frame has begun then. */
+el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
+
+/* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
+ * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or a light without normals. EL_ERROR_RANGE: the
+ * pose or the mesh leaves the world; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn. */
+el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);
+
+/* Draws and hands over the bands of this pass. Returns 1 when the frame needs another pass: submit everything again, in
+ * the same order. Returns 0 when the frame is done, and a negative el_status outside a frame. */
+int el_frame_next(el_renderer *renderer);
+
+/* The counters of the frame under way, or of the last one. */
+const el_stats *el_frame_stats(const el_renderer *renderer);
+
+#endif

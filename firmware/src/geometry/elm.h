@@ -1,0 +1,47 @@
+/* .elm: a mesh in one file or one block of flash, little-endian, read in place.
+ *
+ *   offset size  content
+ *        0    4  "ELM\x1a"
+ *        4    2  major version, 1: a reader refuses another one
+ *        6    2  minor version, 0: a reader accepts any
+ *        8    4  size of the file in bytes
+ *       12    4  CRC-32 (zlib's) of the bytes from 16 to the end
+ *       16    2  vertex count, 1..65535
+ *       18    2  triangle count, 1..61440
+ *       20    1  scale_log2, signed, -30..8
+ *       21    1  content: 1 vertex colours, 2 triangle colours, 4 normals, 8 texture coordinates, 16 texture;
+ *                a texture needs texture coordinates; other bits are 0
+ *       22    1  texture width_log2, 0..10 (0 without a texture)
+ *       23    1  texture height_log2, 0..10 (0 without a texture)
+ *       24    6  bounding sphere's centre, 3 x i16
+ *       30    2  bounding sphere's radius, u16
+ *       32       positions i16[][3], triangles u16[][3], colours u8[][3], triangle colours u8[][3], normals i8[][3],
+ *                texture coordinates i16[][2], texels u16[][]: those that are there, in this order, each padded with
+ *                zero bytes to a multiple of 4; their meaning is that of mesh.h
+ *
+ * After the last section the file ends. */
+#ifndef EL_GEOMETRY_ELM_H
+#define EL_GEOMETRY_ELM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "geometry/mesh.h"
+
+typedef enum el_elm_status {
+    EL_ELM_OK = 0,
+    EL_ELM_NOT_ELM = -1,   /* no magic: another kind of file, or misaligned bytes */
+    EL_ELM_VERSION = -2,   /* written for a newer Edgeline */
+    EL_ELM_TRUNCATED = -3, /* shorter than its header says */
+    EL_ELM_CORRUPT = -4,   /* CRC, sizes or counts do not agree */
+    EL_ELM_RANGE = -5      /* an index, the scale or the bounding sphere is out of range */
+} el_elm_status;
+
+/* Checks the `size` bytes at `bytes` (4-byte aligned, unchanged as long as the views are used) and makes `mesh` and
+ * `texture` views of them. `texture->texels` is NULL where there is none. On an error nothing is written. */
+el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_texture *texture);
+
+/* One line in English that says what is wrong. */
+const char *el_elm_message(el_elm_status status);
+
+#endif

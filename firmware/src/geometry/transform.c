@@ -1,0 +1,370 @@
+#include "geometry/transform.h"
+
+#include "base/fixed.h"
+
+/* Position of models and cameras, Q16.16: +-16384 units. */
+#define MAX_POSITION_Q16 (1 << 30)
+
+static el_factor factor_from_q32(uint64_t value_q32)
+{
+    const int shift = el_bit_length_u64(value_q32) - 31;
+    const uint64_t mantissa = shift >= 0 ? value_q32 >> shift : value_q32 << -shift;
+    return (el_factor){.mantissa = (uint32_t)mantissa, .exponent = (int16_t)(32 - shift)};
+}
+
+/* The guard band about the screen's middle: half the size, times 1 + 2^shift, at most EL_GUARD_PX from the origin. */
+static uint8_t guard_shift(uint16_t size)
+{
+    uint8_t shift = 0;
+    while (size * (1 + (2 << shift)) <= 2 * EL_GUARD_PX) {
+        shift++;
+    }
+    return shift;
+}
+
+static bool outside_unit(const int32_t matrix_q30[3][3])
+{
+    /* A few units of rounding beyond 1 are no error of the caller's. */
+    const uint64_t limit = EL_UNIT_Q30 + 16;
+    for (unsigned i = 0; i < 9; i++) {
+        if (el_abs_u64(matrix_q30[i / 3][i % 3]) > limit) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool outside_world(const int32_t position_q16[3])
+{
+    for (unsigned i = 0; i < 3; i++) {
+        if (el_abs_u64(position_q16[i]) > MAX_POSITION_Q16) {
+            return true;
+        }
+    }
+    return false;
+}
+
+el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, uint16_t height)
+{
+    if (width < 1 || width > EL_MAX_WIDTH || height < 1 || height > EL_MAX_HEIGHT) {
+        return EL_ERROR_SIZE;
+    }
+    const uint64_t near = camera->near_q16;
+    const uint64_t far = camera->far_q16;
+    if (outside_unit(camera->axes_q30) || near < 16 || far < near + (near + 7) / 8 || far > MAX_POSITION_Q16 ||
+        (camera->aspect_q16 != 0 && (camera->aspect_q16 < 256 || camera->aspect_q16 > (1U << 24)))) {
+        return EL_ERROR_CAMERA;
+    }
+    if (outside_world(camera->position_q16)) {
+        return EL_ERROR_RANGE;
+    }
+
+    uint64_t focal_q32; /* of y: 2^25 < focal_q32 < 2^39 in perspective, at most 2^49 in orthographic projection */
+    if (camera->projection == EL_PERSPECTIVE) {
+        if (camera->fov_y < EL_DEGREES(1, 1) || camera->fov_y > EL_DEGREES(179, 1)) {
+            return EL_ERROR_CAMERA;
+        }
+        const uint64_t cosine = (uint64_t)el_cos_q30(camera->fov_y / 2);
+        focal_q32 = (cosine << 32) / (uint64_t)el_sin_q30(camera->fov_y / 2);
+    } else {
+        if (camera->height_q16 < 256 || camera->height_q16 > 2U * MAX_POSITION_Q16) {
+            return EL_ERROR_CAMERA;
+        }
+        focal_q32 = (1ULL << 49) / camera->height_q16;
+    }
+    const uint64_t focal_x_q32 =
+        camera->aspect_q16 != 0 ? (focal_q32 << 16) / camera->aspect_q16 : focal_q32 * height / width;
+
+    for (unsigned i = 0; i < 9; i++) {
+        view->axes_q30[i / 3][i % 3] = camera->axes_q30[i / 3][i % 3];
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        view->position_q16[i] = camera->position_q16[i];
+    }
+    view->projection = camera->projection;
+    view->focal[0] = factor_from_q32(focal_x_q32);
+    view->focal[1] = factor_from_q32(focal_q32);
+    view->near_q16 = camera->near_q16;
+    view->far_q16 = camera->far_q16;
+    /* far >= 9/8 near, so far / (far - near) <= 9 and the scale is at most 65534 * 9 * 2^12 < 2^32. */
+    view->depth_scale_q12 = (uint32_t)(((EL_DEPTH_MAX * far) << 12) / (far - near));
+    view->size[0] = width;
+    view->size[1] = height;
+    view->guard_shift[0] = guard_shift(width);
+    view->guard_shift[1] = guard_shift(height);
+    return EL_OK;
+}
+
+/* Sign of the determinant: true for a reflection. */
+static bool is_reflection(const int32_t m_q30[3][3])
+{
+    /* 16 bits of each element: products of three below 2^46. */
+    int64_t determinant = 0;
+    for (unsigned j = 0; j < 3; j++) {
+        const unsigned k = (j + 1U) % 3U;
+        const unsigned l = (j + 2U) % 3U;
+        const int64_t minor =
+            (int64_t)(m_q30[1][k] >> 15) * (m_q30[2][l] >> 15) - (int64_t)(m_q30[1][l] >> 15) * (m_q30[2][k] >> 15);
+        determinant += (m_q30[0][j] >> 15) * minor;
+    }
+    return determinant < 0;
+}
+
+/* A linear form on position units, q46: value = offset + sum(row * p), in world units. */
+typedef struct el_form {
+    int64_t row[3];
+    int64_t offset;
+} el_form;
+
+/* Length of a row, rounded up: |row| <= 2^47 here. */
+static uint64_t row_length(const int64_t row[3])
+{
+    const uint64_t all = el_abs_u64(row[0]) | el_abs_u64(row[1]) | el_abs_u64(row[2]);
+    const int excess = el_bit_length_u64(all) - 30;
+    const int shift = excess > 0 ? excess : 0;
+    uint64_t sum = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const uint64_t part = (el_abs_u64(row[i]) >> shift) + 1U;
+        sum += part * part;
+    }
+    return ((uint64_t)el_sqrt_u64(sum) + 1U) << shift;
+}
+
+static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
+{
+    int64_t value = form->offset;
+    for (unsigned i = 0; i < 3; i++) {
+        value += form->row[i] * mesh->centre[i];
+    }
+    return value;
+}
+
+/* value * factor * 2^-shift, rounded. */
+static int64_t scale_by(int64_t value, el_factor factor, int shift)
+{
+    const int total = factor.exponent + shift;
+    return total >= 0 ? el_scale_i64(value, factor.mantissa, total)
+                      : el_shift_i64(el_scale_i64(value, factor.mantissa, 0), total);
+}
+
+/* The view-space rows of the mesh (right, up, distance). False when the mesh leaves the world.
+ * Widths: an axis times a rotation is at most 3 * 2^60; a row in Q46 below 2^45, so that a row times a position
+ * (2^15) stays below 2^60, and the sum of three and the offset (below 2^63 / 2, see there) below 2^63. */
+static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *pose, el_form forms[3])
+{
+    /* The scale with at most 28 bits: model scales below 4096 with their whole fraction. */
+    const int excess = el_bit_length_u32(pose->scale_q16) - 28;
+    const int scale_shift = excess > 0 ? excess : 0;
+    const int64_t scale = pose->scale_q16 >> scale_shift;
+
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t *axis = view->axes_q30[i];
+        const int sign = i == 2 ? -1 : 1; /* distance runs against the backward axis */
+        int64_t offset = 0;
+        for (unsigned j = 0; j < 3; j++) {
+            /* Q30 * Q16; positions within +-2^30 differ by at most 2^31, so a term is at most 2^61. */
+            offset += (int64_t)axis[j] * ((int64_t)pose->position_q16[j] - view->position_q16[j]);
+
+            int64_t dot = 0;
+            for (unsigned k = 0; k < 3; k++) {
+                dot += (int64_t)axis[k] * pose->rotation_q30[k][j];
+            }
+            const int64_t row_q46 = el_shift_i64(dot, 30) * scale; /* below 2^32 * 2^28 */
+            forms[i].row[j] = sign * el_shift_i64(row_q46, -(scale_shift + mesh->scale_log2));
+            if (el_bit_length_u64(el_abs_u64(forms[i].row[j])) > 45) {
+                return false;
+            }
+        }
+        forms[i].offset = sign * offset;
+        if (el_bit_length_u64(el_abs_u64(offset)) > 62) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el_form forms[3])
+{
+    const el_form *distance = &forms[2];
+    const int64_t reach = (int64_t)(row_length(distance->row) * mesh->radius);
+    const int64_t centre = form_at_centre(distance, mesh);
+    if (centre + reach < (int64_t)view->near_q16 << 30 || centre - reach > (int64_t)view->far_q16 << 30) {
+        return true;
+    }
+    for (unsigned i = 0; i < 4; i++) {
+        /* w - x, w + x, w - y, w + y: inside where they are not negative. Halved, to keep 63 bits. */
+        const el_form *side = &forms[i / 2];
+        const int sign = (i & 1U) != 0 ? 1 : -1;
+        const bool perspective = view->projection == EL_PERSPECTIVE;
+        el_form plane;
+        for (unsigned j = 0; j < 3; j++) {
+            plane.row[j] =
+                sign * scale_by(side->row[j], view->focal[i / 2], 1) + (perspective ? distance->row[j] / 2 : 0);
+        }
+        plane.offset =
+            sign * scale_by(side->offset, view->focal[i / 2], 1) + (perspective ? distance->offset / 2 : (1LL << 45));
+        const uint64_t length = row_length(plane.row);
+        if (el_bit_length_u64(length) <= 46 &&
+            form_at_centre(&plane, mesh) + (int64_t)(length * mesh->radius) + (1LL << 20) < 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
+{
+    el_form forms[3];
+    if (outside_world(pose->position_q16) || outside_unit(pose->rotation_q30) || pose->scale_q16 == 0 ||
+        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms)) {
+        return EL_ERROR_RANGE;
+    }
+    if (sphere_is_outside(view, mesh, forms)) {
+        return EL_CULLED;
+    }
+
+    const el_factor one = {.mantissa = 1U << 30, .exponent = 30};
+    const el_factor factors[3] = {view->focal[0], view->focal[1], one};
+
+    /* The unit: 2^-unit_log2 world units, so that |x|, |y|, d < 2^30 for the whole sphere. */
+    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : 1LL << 46;
+    for (unsigned i = 0; i < 3; i++) {
+        const uint64_t reach = row_length(forms[i].row) * (mesh->radius + 1U);
+        uint64_t bound = el_abs_u64(form_at_centre(&forms[i], mesh)) + reach;
+        if (bound > INT64_MAX) {
+            bound = INT64_MAX;
+        }
+        const int64_t scaled = scale_by((int64_t)bound, factors[i], 0);
+        largest = scaled > largest ? scaled : largest;
+    }
+    const int unit_log2 = 30 - (el_bit_length_u64((uint64_t)largest) - 46);
+
+    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
+    int64_t rows[9];
+    uint64_t all = 0;
+    for (unsigned i = 0; i < 9; i++) {
+        rows[i] = scale_by(forms[i / 3].row[i % 3], factors[i / 3], 46 - unit_log2 - 31);
+        all |= el_abs_u64(rows[i]);
+    }
+    const int excess = el_bit_length_u64(all) - 31;
+    const int drop = excess <= 0 ? 0 : (excess > 30 ? 30 : excess);
+    for (unsigned i = 0; i < 9; i++) {
+        transform->rows[i / 3][i % 3] = (int32_t)el_shift_i64(rows[i], drop);
+    }
+    transform->shift = (uint8_t)(31 - drop);
+    for (unsigned i = 0; i < 3; i++) {
+        const int shift = 46 - unit_log2 - transform->shift;
+        /* Rounding of the shifted sum is made here, once. */
+        const int64_t half = (int64_t)1 << (transform->shift - 1);
+        transform->offsets[i] = scale_by(forms[i].offset, factors[i], shift) + half;
+    }
+
+    transform->orthographic = view->projection == EL_ORTHOGRAPHIC;
+    transform->mirrored = is_reflection(view->axes_q30) != is_reflection(pose->rotation_q30);
+    transform->guard_shift[0] = view->guard_shift[0];
+    transform->guard_shift[1] = view->guard_shift[1];
+    transform->size[0] = view->size[0];
+    transform->size[1] = view->size[1];
+
+    /* The sphere reaches beyond the near plane, so near < 2^30 in the draw's unit. */
+    const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
+    const int64_t far = el_shift_i64(view->far_q16, 16 - unit_log2);
+    transform->near_q32 = (uint64_t)near_q32;
+    transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
+    transform->far = far > INT32_MAX ? INT32_MAX : (int32_t)far;
+    transform->constant_w = 0;
+    if (!transform->orthographic) {
+        transform->depth_scale = view->depth_scale_q12;
+        transform->depth_shift = 12;
+        return EL_VISIBLE;
+    }
+    transform->constant_w = (int32_t)el_shift_i64(1, -unit_log2);
+    /* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32. */
+    const uint64_t range = (uint64_t)(view->far_q16 - view->near_q16); /* Q16 world units */
+    uint64_t scale = ((uint64_t)EL_DEPTH_MAX << 46) / range;
+    int shift = 46 - 16 + unit_log2;
+    const int bits = el_bit_length_u64(scale) - 32;
+    if (bits > 0) {
+        scale >>= bits;
+        shift -= bits;
+    }
+    transform->depth_scale = (uint32_t)scale;
+    transform->depth_shift = (uint8_t)shift;
+    return EL_VISIBLE;
+}
+
+static int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
+{
+    /* Three products below 2^46 and an offset below 2^62. */
+    const int32_t *row = transform->rows[i];
+    const int64_t sum =
+        transform->offsets[i] + (int64_t)row[0] * p[0] + (int64_t)row[1] * p[1] + (int64_t)row[2] * p[2];
+    return (int32_t)(sum >> transform->shift);
+}
+
+el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
+{
+    el_clip_vertex vertex;
+    vertex.x = form_value(transform, 0, position);
+    vertex.y = form_value(transform, 1, position);
+    vertex.d = form_value(transform, 2, position);
+    vertex.w = transform->orthographic ? transform->constant_w : vertex.d;
+    return vertex;
+}
+
+uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
+{
+    unsigned code = 0;
+    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
+    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
+    const int64_t w = vertex->w;
+    code |= vertex->x < -w ? EL_CODE_LEFT : 0U;
+    code |= vertex->x > w ? EL_CODE_RIGHT : 0U;
+    code |= vertex->y < -w ? EL_CODE_BELOW : 0U;
+    code |= vertex->y > w ? EL_CODE_ABOVE : 0U;
+    if ((code & (EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE)) != 0) {
+        const int64_t x_limit = w * (1 << transform->guard_shift[0]);
+        const int64_t y_limit = w * (1 << transform->guard_shift[1]);
+        if (vertex->x < -x_limit || vertex->x > x_limit || vertex->y < -y_limit || vertex->y > y_limit) {
+            code |= EL_CODE_GUARD;
+        }
+    }
+    return (uint8_t)code;
+}
+
+/* middle + half * c / w in 1/16 px, to the nearest, ties up.
+ * |c| <= w << guard_shift keeps the quotient within EL_GUARD_SUB; |c| * half < 2^30 * 2^15. */
+static int16_t snap(int64_t c, uint16_t size, uint32_t w, const el_divisor *divisor)
+{
+    const int32_t half = size * (EL_SUBPIXELS / 2);
+    const int32_t offset = el_divide_floor_i64(c * half + (w >> 1), divisor);
+    return (int16_t)(half + offset);
+}
+
+void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+{
+    const uint32_t w = (uint32_t)vertex->w;
+    const el_divisor divisor = el_divisor_make(w);
+    screen->x = snap(vertex->x, transform->size[0], w, &divisor);
+    screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
+
+    uint32_t inverse_w_q32 = 0xFFFFFFFFU; /* near / w */
+    uint32_t z;
+    if (transform->orthographic) {
+        const uint64_t distance = (uint64_t)(vertex->d - transform->near);
+        const uint64_t product = distance * transform->depth_scale;
+        z = (uint32_t)((product + ((1ULL << transform->depth_shift) >> 1)) >> transform->depth_shift);
+    } else {
+        if (transform->near_q32 < (uint64_t)w << 32) {
+            inverse_w_q32 = el_divide_u64(transform->near_q32, &divisor);
+        }
+        /* depth = scale * (1 - near / w) */
+        const uint64_t product = (uint64_t)transform->depth_scale * ~inverse_w_q32;
+        z = (uint32_t)((product + (1ULL << 43)) >> 44);
+    }
+    screen->z = (uint16_t)(z > EL_DEPTH_MAX ? EL_DEPTH_MAX : z);
+
+    inverse_w_q32 |= 1U; /* never 0; far below the 16 bits that are kept, or at the end of the range */
+    screen->w_shift = (uint8_t)__builtin_clz(inverse_w_q32);
+    screen->w = (uint16_t)((inverse_w_q32 << screen->w_shift) >> 16);
+}

@@ -1,0 +1,100 @@
+/* From model space to the snapped screen: the camera's part once per frame (el_view), the mesh's part once per draw
+ * (el_transform), then each vertex once.
+ *
+ * Clip coordinates of a draw share one unit, a power of two of a world unit chosen so that the whole mesh fits 30 bits;
+ * only their ratios and their comparison with the near and far distance in the same unit matter. x and y are scaled so
+ * that -w <= x, y <= w is the screen; y is up. d is the distance along the view; w is d in perspective and a constant in
+ * orthographic projection. */
+#ifndef EL_GEOMETRY_TRANSFORM_H
+#define EL_GEOMETRY_TRANSFORM_H
+
+#include <stdint.h>
+
+#include "base/divide.h"
+#include "base/status.h"
+#include "geometry/limits.h"
+#include "geometry/mesh.h"
+#include "geometry/pose.h"
+
+/* A positive factor: mantissa * 2^-exponent, mantissa in [2^30, 2^31). */
+typedef struct el_factor {
+    uint32_t mantissa;
+    int16_t exponent;
+} el_factor;
+
+/* A camera before a screen of width x height pixels. */
+typedef struct el_view {
+    int32_t axes_q30[3][3];
+    int32_t position_q16[3];
+    el_projection projection;
+    el_factor focal[2]; /* x and y on the screen's half sizes per unit of x/w and y/w */
+    uint32_t near_q16;
+    uint32_t far_q16;
+    uint32_t depth_scale_q12; /* EL_DEPTH_MAX * far / (far - near), perspective */
+    uint16_t size[2];         /* width, height in pixels */
+    uint8_t guard_shift[2];   /* the guard band is |x| <= w << shift */
+} el_view;
+
+/* Checks the camera and prepares a view. 1 <= width, height <= EL_MAX_WIDTH, EL_MAX_HEIGHT.
+ * EL_ERROR_CAMERA, EL_ERROR_RANGE (position) or EL_ERROR_SIZE. */
+el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, uint16_t height);
+
+enum {
+    EL_CODE_LEFT = 1,
+    EL_CODE_RIGHT = 2,
+    EL_CODE_BELOW = 4,
+    EL_CODE_ABOVE = 8,
+    EL_CODE_NEAR = 16,
+    EL_CODE_FAR = 32,
+    EL_CODE_GUARD = 64, /* beyond the guard band */
+    EL_CODE_OUTSIDE = EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE | EL_CODE_NEAR | EL_CODE_FAR,
+    EL_CODE_CLIP = EL_CODE_NEAR | EL_CODE_FAR | EL_CODE_GUARD /* cannot be projected: its triangles are cut first */
+};
+
+typedef struct el_transform {
+    int32_t rows[3][3]; /* x, y, d per position unit, times 2^shift */
+    int64_t offsets[3]; /* |offset| < 2^62 */
+    uint8_t shift;      /* 1..31 */
+    uint8_t orthographic;
+    uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
+    uint8_t guard_shift[2];
+    uint16_t size[2];
+    int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
+    int32_t far;          /* likewise, or INT32_MAX */
+    int32_t constant_w;   /* orthographic: w of every vertex */
+    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
+    uint8_t depth_shift;
+} el_transform;
+
+typedef enum el_visibility { EL_VISIBLE = 0, EL_CULLED = 1 } el_visibility;
+
+/* Prepares the draw of `mesh` at `pose`. Returns EL_VISIBLE, EL_CULLED when the bounding sphere is outside the view
+ * (nothing else is prepared then), or EL_ERROR_RANGE. */
+int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose);
+
+typedef struct el_clip_vertex {
+    int32_t x, y, d, w;
+} el_clip_vertex;
+
+/* A vertex on the screen. Where code has a bit of EL_CODE_CLIP, only code is valid. */
+typedef struct el_screen_vertex {
+    int16_t x;       /* 1/16 px, right */
+    int16_t y;       /* 1/16 px, down */
+    uint16_t z;      /* 0 near .. EL_DEPTH_MAX far */
+    uint16_t w;      /* 1/w: upper 16 bits of near/w as Q32, normalised: 2^15 <= w */
+    uint8_t code;    /* EL_CODE_ bits */
+    uint8_t w_shift; /* how far w was shifted left, 0..31 */
+} el_screen_vertex;
+
+/* The clip coordinates of a mesh position. */
+el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3]);
+
+/* Where a clip vertex lies. */
+uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);
+
+/* Perspective division, viewport, snapping (to the nearest 1/16 px, ties towards +x and +y up) and depth.
+ * Pre: el_outcode has no bit of EL_CODE_CLIP. Sets all but code. */
+void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen);
+
+#endif

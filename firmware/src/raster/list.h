@@ -1,0 +1,130 @@
+/* The display list: the triangles of a pass, binned by the band in which they begin.
+ *
+ * Runs follow each other in one block of memory, in the order of submission: a run is a header (what was drawn, how) and
+ * its records, one per triangle, all of one kind. A record holds the snapped corners only; colours and texture
+ * coordinates stay in the mesh until the triangle is set up. That costs 24 or 32 bytes per visible triangle and nothing
+ * for those that are not. Triangles that were cut carry their own attributes.
+ *
+ * Records are named by their offset in units of 8 bytes, so a later record has a larger name: comparing names compares
+ * the order of submission, which decides ties in depth. A bin is a circular list, named by its last record, so that
+ * appending and taking from the front are both one step. */
+#ifndef EL_RASTER_LIST_H
+#define EL_RASTER_LIST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "raster/material.h"
+#include "raster/triangle.h"
+
+enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
+
+typedef enum el_record_kind {
+    EL_RECORD_PLAIN,       /* el_record */
+    EL_RECORD_PERSPECTIVE, /* el_record_perspective */
+    EL_RECORD_CLIPPED,     /* el_record_clipped */
+    EL_RECORD_KINDS
+} el_record_kind;
+
+/* What the triangles of a run have in common. */
+typedef struct el_draw_state {
+    const el_mesh *mesh;
+    const el_material *material;
+    int16_t light_q14[3]; /* direction towards the light in model space */
+    uint8_t mirrored;     /* front faces run clockwise on the screen */
+} el_draw_state;
+
+/* Whether a triangle of that doubled area (el_doubled_area, not 0) shows its back. */
+static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area)
+{
+    /* Front faces run counter-clockwise, against the sense in which an area with y down is positive. */
+    return (doubled_area > 0) != (draw->mirrored != 0);
+}
+
+typedef struct el_run {
+    el_draw_state draw;
+    uint16_t count;
+    uint8_t kind;
+} el_run;
+
+typedef struct el_point {
+    int16_t x, y; /* 1/16 px */
+    uint16_t z;
+} el_point;
+
+typedef struct el_record {
+    uint16_t next;  /* in its bin or in the list of active triangles; 0: none */
+    uint16_t run;   /* its el_run */
+    uint16_t index; /* of the mesh's triangle; EL_INDEX_ACTIVE: set up, and its state is in place of the points */
+    union {
+        el_point points[3];
+        uint16_t state; /* of an active triangle: its el_triangle */
+    } at;
+} el_record;
+
+enum { EL_INDEX_ACTIVE = 0xFFFF };
+
+typedef struct el_record_perspective {
+    el_record record;
+    uint16_t w[3];     /* 1/w of each corner is w * 2^-shift, 2^15 <= w */
+    uint16_t w_shifts; /* three shifts of 5 bits, the first corner's lowest */
+} el_record_perspective;
+
+typedef struct el_attributes {
+    int32_t u_q16, v_q16;
+    uint16_t rgb_q8[3];
+} el_attributes;
+
+typedef struct el_record_clipped {
+    el_record_perspective perspective;
+    el_attributes attributes[3];
+} el_record_clipped;
+
+_Static_assert(sizeof(el_record) == 24, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_record_perspective) == 32, "the size that EL_MEMORY_BYTES counts with");
+
+typedef struct el_list {
+    uint8_t *base;  /* 8-byte aligned */
+    uint32_t end;   /* bytes that may be used now */
+    uint32_t used;  /* bytes */
+    uint16_t *bins; /* last record of each band; 0: none */
+    uint16_t bin_count;
+    uint16_t band_lines;
+    uint16_t run; /* the run that takes records; 0: none */
+} el_list;
+
+static inline void *el_list_at(const el_list *list, uint16_t name)
+{
+    return list->base + (uint32_t)name * EL_LIST_UNIT;
+}
+
+/* `memory` is 8-byte aligned; `bins` holds `bin_count` entries. */
+void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines);
+
+/* Empties the list and its bins. */
+void el_list_clear(el_list *list);
+
+/* The next record belongs to a run of its own. */
+static inline void el_list_end_run(el_list *list)
+{
+    list->run = 0;
+}
+
+/* Appends a record of that kind to the bin of the band that has screen row `row`, opening a run for `draw` if the last
+ * one is of another kind or has ended. Its run and next are set; the caller fills in the rest. NULL when it is full. */
+el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row);
+
+/* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
+ * the bin of row_begin. The run that takes records stays open. */
+void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end);
+
+/* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */
+uint16_t el_list_take_bin(el_list *list, uint16_t band);
+
+/* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
+void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
+
+/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. */
+void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+
+#endif

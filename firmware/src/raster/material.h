@@ -1,0 +1,39 @@
+/* How surfaces look: shading, light and draw state. */
+#ifndef EL_RASTER_MATERIAL_H
+#define EL_RASTER_MATERIAL_H
+
+#include <stdint.h>
+
+#include "geometry/mesh.h"
+
+typedef enum el_shading {
+    EL_SHADE_FLAT,             /* one colour per triangle */
+    EL_SHADE_GOURAUD,          /* vertex colours, linear on the screen */
+    EL_SHADE_TEXTURED,         /* texels, perspective-correct */
+    EL_SHADE_TEXTURED_GOURAUD, /* texels times vertex colours */
+    EL_SHADE_OVERDRAW          /* each pixel drawn adds 1 to what is there: counts, not colours */
+} el_shading;
+
+enum {
+    EL_MATERIAL_TWO_SIDED = 1, /* draws back faces too; their normals are turned around */
+    EL_MATERIAL_NO_DEPTH = 2,  /* neither tests nor writes depth: what is drawn later covers what was earlier */
+    EL_MATERIAL_FLAT_MEAN = 4  /* flat: the mean of the three vertices' colours instead of the first vertex' */
+};
+
+/* Ambient light and one directional light, both white. */
+typedef struct el_light {
+    int32_t direction_q30[3]; /* towards the light, world space, length 1 */
+    uint8_t ambient;          /* 255 shows a surface in its own colour */
+    uint8_t diffuse;          /* added where the surface faces the light, less by the cosine elsewhere */
+} el_light;
+
+/* Zeroed: flat, black, front faces, with depth. What it points to must stay until the frame is done. */
+typedef struct el_material {
+    uint8_t shading;           /* el_shading */
+    uint8_t flags;             /* EL_MATERIAL_ */
+    uint8_t colour[3];         /* red, green, blue of meshes without colours of their own */
+    const el_texture *texture; /* for the textured shadings */
+    const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
+} el_material;
+
+#endif

@@ -1,0 +1,97 @@
+/* One triangle under way: set up at a row, then drawn row by row through as many bands as it touches.
+ *
+ * Everything is exact or modulo 2^n, so a triangle that is set up at row 100 has the same state as one that was set up at
+ * row 0 and walked there: pixels do not depend on bands. */
+#ifndef EL_RASTER_TRIANGLE_H
+#define EL_RASTER_TRIANGLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/stats.h"
+#include "raster/edge.h"
+#include "raster/material.h"
+#include "raster/plane.h"
+
+/* The planes of each shading, in this order. */
+enum {
+    EL_PLANE_Z = 0,   /* depth */
+    EL_PLANE_RED = 1, /* Gouraud: red, green, blue in 8.8 */
+    EL_PLANE_W = 1,   /* textured: 1/w, (u - u_base)/w, (v - v_base)/w, then the light's red, green, blue in 8.8 */
+    EL_PLANE_U = 2,
+    EL_PLANE_V = 3,
+    EL_PLANE_LIGHT_RED = 4,
+    EL_MAX_PLANES = 7
+};
+
+/* How many planes a shading uses. */
+unsigned el_plane_count(el_shading shading);
+
+/* A triangle for set-up: screen corners and what is shaded. Both windings are drawn. */
+typedef struct el_corner {
+    int32_t x, y; /* 1/16 px, within +-EL_GUARD_SUB */
+    uint16_t z;
+    uint32_t w;           /* textured: 1/w in any unit that the corners share, 1 <= w < 2^31 */
+    int32_t u_q16, v_q16; /* textured: texels, |u|, |v| < 2048 texels */
+    uint16_t rgb_q8[3];   /* Gouraud and textured times Gouraud: 0..255 in 8.8 */
+} el_corner;
+
+typedef struct el_surface {
+    el_shading shading;
+    bool depth;                /* test and write depth */
+    uint16_t colour;           /* flat: RGB565 */
+    const el_texture *texture; /* textured */
+} el_surface;
+
+typedef struct el_triangle {
+    el_edge edges[3]; /* left and right edge of the current part, then the lower part's other edge */
+    int16_t y;        /* next row */
+    int16_t y_middle; /* first row of the lower part */
+    int16_t y_end;
+    bool short_is_left; /* the side that bends at y_middle */
+    el_surface surface;
+    int32_t u_base_q16; /* whole texels, in the middle of the triangle's range */
+    int32_t v_base_q16;
+    uint8_t u_shift; /* u - u_base in Q16 = (U << u_shift) / W */
+    uint8_t v_shift;
+    el_plane planes[EL_MAX_PLANES]; /* the first el_plane_count are used; the others need not be in memory */
+} el_triangle;
+
+/* Bytes of an el_triangle of that shading. */
+uint32_t el_triangle_bytes(el_shading shading);
+
+/* Sets up `corners` from `first_row` on, or from the first row below it that has a pixel centre inside. Returns false,
+ * and sets up nothing, when no row of the triangle is left or its area is zero. */
+bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row);
+
+/* Where to draw: the rows [y, y_end) of the screen. */
+typedef struct el_target {
+    uint16_t *colour; /* width pixels per row */
+    uint16_t *depth;  /* width values per row */
+    int32_t width;
+    int32_t y;
+    int32_t y_end;
+} el_target;
+
+/* Draws the triangle's rows from triangle->y to the target's last and moves it on to the row after them.
+ * Pre: triangle->y >= target->y. */
+void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats);
+
+static inline bool el_triangle_is_done(const el_triangle *triangle)
+{
+    return triangle->y >= triangle->y_end;
+}
+
+/* The values at a pixel before their last rounding, for tests and debug views. What is rounded to nearest by cutting
+ * off its fraction has its half added already. */
+typedef struct el_sample {
+    uint32_t z_plus_half_q16;
+    uint32_t rgb_plus_half_q24[3]; /* 8.24 */
+    int32_t u_q16, v_q16;
+} el_sample;
+
+/* The values that el_triangle_draw has at pixel x of the triangle's next row, on a screen of `width` pixels: what its
+ * loop arrives at after as many steps. Pre: the pixel is covered. */
+void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample);
+
+#endif

@@ -1,0 +1,380 @@
+/* The session: input packets change the state, output waits for the link but never for ever.
+ *
+ * Input may arrive in the middle of an outgoing packet, while that waits for room. Whatever needs an answer is
+ * therefore only noted (hello_due, notice) and sent by el_stream_poll, between two packets. */
+#include "stream/session.h"
+
+#include <string.h>
+
+enum {
+    MODE_BLOCK = 0,
+    PIXEL_FORMAT_RGB565 = 1,
+    PROTOCOL_MAJOR = 1,
+    PROTOCOL_MINOR = 0,
+    HELLO_FIXED_BYTES = 28 + 2, /* the two length bytes included */
+    HELLO_MAX_BYTES = HELLO_FIXED_BYTES + 2 * EL_STREAM_MAX_NAME_BYTES,
+    START_BYTES = 6,
+    ACK_BYTES = 3,
+    KEY_BYTES = 4,
+    MAX_CREDITS = 255,
+    READ_BYTES = 32,
+    READS_PER_POLL = 8 /* a host that floods the link does not stop the device */
+};
+
+_Static_assert(EL_STREAM_WIRE_BYTES >= (int)EL_COBS_ENCODER_MIN_BYTES, "the queue must hold an open block");
+_Static_assert((EL_STREAM_WIRE_BYTES - 3) / 2 >= HELLO_MAX_BYTES + EL_PACKET_OVERHEAD_BYTES,
+               "HELLO is sent without waiting: it must fit into an empty queue");
+_Static_assert((EL_STREAM_WIRE_BYTES - 3) / 2 >= EL_STREAM_MAX_LOG_BYTES + EL_PACKET_OVERHEAD_BYTES, "so is LOG");
+_Static_assert(EL_STREAM_PACKET_BYTES(EL_STREAM_MAX_SIZE) <= UINT16_MAX, "HELLO states it in 16 bits");
+
+static uint32_t now_us(const el_stream *stream)
+{
+    return stream->config.port->micros(stream->config.port->context);
+}
+
+/* --- Ends of a session -------------------------------------------------------------------------------------------- */
+
+static void lose_link(el_stream *stream)
+{
+    el_packet_tear(&stream->writer);
+    stream->state = EL_STREAM_GONE;
+    stream->frame.sending = false;
+}
+
+/* The host is gone or has not come yet. */
+static void wait_for_start(el_stream *stream)
+{
+    stream->frame.sending = false;
+    if (!stream->config.one_way) {
+        stream->state = EL_STREAM_WAITING;
+        stream->credits = 0;
+        stream->hello_us = now_us(stream);
+    }
+}
+
+/* --- Input -------------------------------------------------------------------------------------------------------- */
+
+void el_stream_make_due(el_stream *stream, uint32_t y0, uint32_t y1)
+{
+    for (uint32_t y = y0; y < y1; y++) {
+        stream->lines_due[y / 8] = (uint8_t)(stream->lines_due[y / 8] | 1U << y % 8);
+    }
+}
+
+static void take_start(el_stream *stream, const uint8_t *body)
+{
+    uint16_t frames_per_s = el_packet_get_u16(body + 2);
+    uint16_t codecs = el_packet_get_u16(body + 4) & (EL_STREAM_RAW | EL_STREAM_RUNS);
+
+    if (body[0] != MODE_BLOCK) {
+        stream->notice = "START refused: this device knows mode 0 (BLOCK) only";
+        return;
+    }
+    if (codecs == 0) {
+        stream->notice = "START refused: this device sends codecs 0 (raw) and 1 (runs) only";
+        return;
+    }
+    stream->state = EL_STREAM_RUNNING;
+    stream->frame.sending = false;
+    stream->credits = body[1];
+    stream->codecs = codecs;
+    stream->dropped = 0;
+    stream->period_us = frames_per_s == 0 ? 0 : 1000000U / frames_per_s;
+    stream->frame_us = now_us(stream) - stream->period_us; /* the first frame is due at once */
+    el_stream_make_due(stream, 0, stream->config.height);
+}
+
+static void take_ack(el_stream *stream, const uint8_t *body)
+{
+    uint32_t credits = (uint32_t)stream->credits + body[2];
+    stream->credits = (uint8_t)(credits < MAX_CREDITS ? credits : MAX_CREDITS); /* START sets them anew */
+}
+
+static void take_key(el_stream *stream, const uint8_t *body)
+{
+    uint32_t y0 = el_packet_get_u16(body);
+    uint32_t y1 = y0 + el_packet_get_u16(body + 2);
+    uint32_t height = stream->config.height;
+    el_stream_make_due(stream, y0, y1 < height ? y1 : height);
+}
+
+static void take_packet(el_stream *stream, const el_packet *packet)
+{
+    static const struct {
+        uint8_t type;
+        uint8_t body_bytes;
+    } shortest[] = {{EL_PACKET_START, START_BYTES}, {EL_PACKET_ACK, ACK_BYTES}, {EL_PACKET_KEY, KEY_BYTES}};
+
+    for (size_t i = 0; i < sizeof shortest / sizeof shortest[0]; i++) {
+        if (packet->type == shortest[i].type && packet->body_bytes < shortest[i].body_bytes) {
+            stream->damaged++;
+            return;
+        }
+    }
+    stream->heard_us = now_us(stream);
+    switch (packet->type) {
+    case EL_PACKET_START:
+        take_start(stream, packet->body);
+        break;
+    case EL_PACKET_ACK:
+        take_ack(stream, packet->body);
+        break;
+    case EL_PACKET_KEY:
+        take_key(stream, packet->body);
+        break;
+    case EL_PACKET_PING:
+        stream->hello_due = true;
+        break;
+    case EL_PACKET_STOP:
+        wait_for_start(stream);
+        break;
+    default: /* a later version's */
+        break;
+    }
+}
+
+static void take_byte(el_stream *stream, uint8_t byte)
+{
+    el_packet packet;
+    int result = el_packet_feed(&stream->reader, byte, &packet);
+
+    if (result == EL_PACKET_DAMAGED) {
+        stream->damaged++;
+    } else if (result == EL_PACKET_COMPLETE) {
+        if (packet.type != EL_PACKET_START && packet.type != EL_PACKET_PING) { /* those may be a new host's first */
+            stream->missed += (uint8_t)(packet.seq - stream->next_seq);
+        }
+        stream->next_seq = (uint8_t)(packet.seq + 1);
+        take_packet(stream, &packet);
+    }
+}
+
+static void receive(el_stream *stream)
+{
+    const el_port *port = stream->config.port;
+    uint8_t bytes[READ_BYTES];
+    int32_t count = 1;
+
+    for (int i = 0; i < READS_PER_POLL && count > 0 && !stream->config.one_way; i++) {
+        count = port->read(port->context, bytes, sizeof bytes);
+        for (int32_t at = 0; at < count; at++) {
+            take_byte(stream, bytes[at]);
+        }
+    }
+    if (count < 0) {
+        lose_link(stream);
+    }
+}
+
+/* --- Output ------------------------------------------------------------------------------------------------------- */
+
+bool el_stream_push(el_stream *stream)
+{
+    const el_port *port = stream->config.port;
+    size_t count;
+    const uint8_t *bytes = el_cobs_final(&stream->writer.wire, &count);
+
+    if (stream->state != EL_STREAM_GONE && count > 0) {
+        int32_t took = port->write(port->context, bytes, count);
+        if (took < 0) {
+            lose_link(stream);
+        } else {
+            el_cobs_take(&stream->writer.wire, (size_t)took);
+        }
+    }
+    return stream->state != EL_STREAM_GONE;
+}
+
+bool el_stream_flush(el_stream *stream)
+{
+    const el_port *port = stream->config.port;
+    uint32_t progress_us = now_us(stream);
+    size_t before;
+    size_t after;
+
+    el_cobs_final(&stream->writer.wire, &after);
+    while (stream->state != EL_STREAM_GONE && after > 0) {
+        before = after;
+        if (!el_stream_push(stream)) {
+            break;
+        }
+        el_cobs_final(&stream->writer.wire, &after);
+        if (after < before) {
+            progress_us = now_us(stream);
+            continue;
+        }
+        receive(stream);
+        if (now_us(stream) - progress_us >= EL_STREAM_PATIENCE_US) {
+            el_packet_tear(&stream->writer);
+            wait_for_start(stream);
+            return false;
+        }
+        if (port->wait != NULL) {
+            port->wait(port->context);
+        }
+    }
+    return stream->state != EL_STREAM_GONE;
+}
+
+static bool drain(void *context)
+{
+    return el_stream_flush(context);
+}
+
+/* strlen, which a freestanding board need not have; EL_STREAM_MAX_LOG_BYTES at most. */
+static size_t text_bytes(const char *text)
+{
+    size_t count = 0;
+    while (count < EL_STREAM_MAX_LOG_BYTES && text[count] != '\0') {
+        count++;
+    }
+    return count;
+}
+
+static void put_name(el_packet_writer *writer, const char *name)
+{
+    size_t bytes = text_bytes(name);
+    el_packet_put_u8(writer, (uint8_t)bytes);
+    el_packet_put(writer, name, bytes);
+}
+
+static void send_hello(el_stream *stream)
+{
+    const el_stream_config *config = &stream->config;
+    el_packet_writer *writer = &stream->writer;
+
+    el_packet_begin(writer, EL_PACKET_HELLO);
+    el_packet_put(writer, "EDGL", 4);
+    el_packet_put_u8(writer, PROTOCOL_MAJOR);
+    el_packet_put_u8(writer, PROTOCOL_MINOR);
+    el_packet_put_u16(writer, config->width);
+    el_packet_put_u16(writer, config->height);
+    el_packet_put_u8(writer, PIXEL_FORMAT_RGB565);
+    el_packet_put_u8(writer, 0);
+    el_packet_put_u16(writer, 0); /* lines are left out whole */
+    el_packet_put_u16(writer, (uint16_t)EL_STREAM_PACKET_BYTES(config->width));
+    el_packet_put_u32(writer, EL_STREAM_RAW | EL_STREAM_RUNS | (config->one_way ? 0 : EL_STREAM_PARTIAL));
+    el_packet_put_u32(writer, config->max_baud);
+    el_packet_put_u32(writer, config->boot_id);
+    put_name(writer, config->target);
+    put_name(writer, config->firmware);
+    el_packet_end(writer);
+}
+
+static void send_log(el_stream *stream, const char *text, size_t count)
+{
+    el_packet_begin(&stream->writer, EL_PACKET_LOG);
+    el_packet_put(&stream->writer, text, count);
+    el_packet_end(&stream->writer);
+}
+
+/* What waits for a chance between two packets and fits without waiting. */
+static void send_pending(el_stream *stream)
+{
+    bool nobody = stream->state == EL_STREAM_WAITING || stream->config.one_way;
+    uint32_t now = now_us(stream);
+
+    if (nobody && now - stream->hello_us >= EL_STREAM_PATIENCE_US) {
+        stream->hello_us = now;
+        stream->hello_due = true;
+    }
+    if (stream->hello_due && el_packet_fits(&stream->writer, HELLO_MAX_BYTES)) {
+        stream->hello_due = false;
+        send_hello(stream);
+    }
+    if (stream->notice != NULL && el_packet_fits(&stream->writer, text_bytes(stream->notice))) {
+        send_log(stream, stream->notice, text_bytes(stream->notice));
+        stream->notice = NULL;
+    }
+}
+
+/* --- The public door ---------------------------------------------------------------------------------------------- */
+
+static bool is_name(const char *name)
+{
+    return name != NULL && text_bytes(name) <= EL_STREAM_MAX_NAME_BYTES;
+}
+
+static int check(const el_stream_config *config)
+{
+    const el_port *port = config->port;
+
+    if (config->width < 1 || config->width > EL_STREAM_MAX_SIZE || config->height < 1 ||
+        config->height > EL_STREAM_MAX_SIZE) {
+        return EL_STREAM_BAD_SIZE;
+    }
+    if (config->memory == NULL || config->memory_bytes < EL_STREAM_MEMORY_BYTES(config->width, config->height)) {
+        return EL_STREAM_BAD_MEMORY;
+    }
+    if (port == NULL || port->write == NULL || port->micros == NULL || (port->read == NULL && !config->one_way)) {
+        return EL_STREAM_BAD_PORT;
+    }
+    return is_name(config->target) && is_name(config->firmware) ? 0 : EL_STREAM_BAD_NAME;
+}
+
+int el_stream_init(el_stream *stream, const el_stream_config *config)
+{
+    int error = check(config);
+    if (error != 0) {
+        return error;
+    }
+    memset(stream, 0, sizeof *stream);
+    stream->config = *config;
+
+    uint8_t *memory = config->memory;
+    memory += -(uintptr_t)memory & 3;
+    stream->line_crcs = (uint32_t *)(void *)memory;
+    stream->lines_due = memory + 4 * (size_t)config->height;
+    stream->tokens = stream->lines_due + (config->height + 7U) / 8;
+    memset(memory, 0, (size_t)(stream->tokens - memory));
+
+    el_packet_writer_init(&stream->writer, stream->wire, sizeof stream->wire, drain, stream);
+    stream->state = config->one_way ? EL_STREAM_RUNNING : EL_STREAM_WAITING;
+    stream->codecs = EL_STREAM_RAW | EL_STREAM_RUNS;
+    stream->hello_due = true;
+    stream->hello_us = now_us(stream);
+    return 0;
+}
+
+int el_stream_poll(el_stream *stream)
+{
+    if (stream->state != EL_STREAM_GONE) {
+        receive(stream);
+    }
+    if (stream->state == EL_STREAM_RUNNING && stream->credits == 0 &&
+        now_us(stream) - stream->heard_us >= EL_STREAM_PATIENCE_US) {
+        wait_for_start(stream);
+    }
+    if (stream->state != EL_STREAM_GONE) {
+        send_pending(stream);
+        el_stream_push(stream);
+    }
+    return stream->state == EL_STREAM_GONE ? EL_STREAM_LINK_GONE : 0;
+}
+
+bool el_stream_ready(const el_stream *stream)
+{
+    return stream->state == EL_STREAM_RUNNING && (stream->credits > 0 || stream->config.one_way) &&
+           (stream->period_us == 0 || now_us(stream) - stream->frame_us >= stream->period_us);
+}
+
+int32_t el_stream_log(el_stream *stream, const char *text, size_t count)
+{
+    if (count > EL_STREAM_MAX_LOG_BYTES) {
+        count = EL_STREAM_MAX_LOG_BYTES;
+        while (count > 0 && ((uint8_t)text[count] & 0xC0) == 0x80) { /* inside a UTF-8 character */
+            count--;
+        }
+    }
+    if (!el_packet_fits(&stream->writer, count) && stream->state == EL_STREAM_RUNNING) {
+        el_stream_flush(stream);
+    }
+    if (stream->state == EL_STREAM_GONE) {
+        return EL_STREAM_LINK_GONE;
+    }
+    if (!el_packet_fits(&stream->writer, count)) {
+        return 0;
+    }
+    send_log(stream, text, count);
+    return el_stream_push(stream) ? (int32_t)count : EL_STREAM_LINK_GONE;
+}

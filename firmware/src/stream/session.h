@@ -1,0 +1,151 @@
+/* The device's end of a stream: who listens, what they are owed, and what the link takes.
+ *
+ * Wiring: el_stream_init with a port and memory, el_stream_sink (sink.h) among the renderer's sinks, el_stream_poll in
+ * idle loops. Everything runs in the caller's thread and nothing blocks for ever: a call waits for the link at most
+ * EL_STREAM_PATIENCE_US after the last byte that the link took.
+ *
+ *     WAITING   no host. HELLO once a second and as the answer to PING. Frames are not looked at.
+ *        | START                        ^ STOP; no byte taken for 1 s; no credits and nothing heard for 1 s
+ *        v                              |
+ *     RUNNING   frames are sent as long as there are credits; every line of the first.
+ *
+ *     GONE      the port said -1. It is neither read nor written again, frames are not looked at; el_stream_init starts
+ *               anew.
+ *
+ * A START or STOP in the middle of a frame abandons it: the packet on its way is completed, the rest is not sent, and
+ * no FRAME_END follows. The second without a host's packet counts from the end of the last frame or from the last
+ * packet, whichever came later: a slow link is no absent host.
+ *
+ * With `one_way` there is no host to listen to (a pipe, a UART without RX): the session is RUNNING from the start with
+ * endless credits, HELLO comes once a second between packets, and each frame has all lines, so that a reader may begin
+ * anywhere. Input is not read. A frame that is abandoned because the link took nothing is followed by the next one. */
+#ifndef EL_STREAM_SESSION_H
+#define EL_STREAM_SESSION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/port.h"
+#include "stream/packet.h"
+#include "stream/runs.h"
+
+enum {
+    EL_STREAM_PATIENCE_US = 1000000, /* all of the session's time limits, and the time between two HELLO */
+    EL_STREAM_MAX_SIZE = 2040,       /* width and height, in pixels */
+    EL_STREAM_MAX_NAME_BYTES = 64,
+    EL_STREAM_MAX_LOG_BYTES = 200,
+    EL_STREAM_BAND_HEADER_BYTES = 8,
+    EL_STREAM_WIRE_BYTES = 512,  /* the queue to the port: two blocks of COBS, and HELLO or LOG at once */
+    EL_STREAM_REFRESH_LINES = 2, /* sent with each frame, in turn, whatever they hold: a line that changed without a
+                                    change of its CRC is wrong for height/2 frames at most */
+    EL_STREAM_RAW = 1,           /* codecs, as START and HELLO have them */
+    EL_STREAM_RUNS = 2,
+    EL_STREAM_PARTIAL = 256 /* capability: unchanged lines are left out */
+};
+
+/* The largest packet before COBS: about 1 KB, since longer ones gain little and cost more when they are damaged; and
+ * one line, whatever it holds. */
+#define EL_STREAM_LINE_PACKET_BYTES(width)                                                                             \
+    (EL_PACKET_OVERHEAD_BYTES + EL_STREAM_BAND_HEADER_BYTES + EL_RUNS_LINE_MAX_BYTES(width))
+#define EL_STREAM_PACKET_BYTES(width)                                                                                  \
+    (EL_STREAM_LINE_PACKET_BYTES(width) > 1024 ? EL_STREAM_LINE_PACKET_BYTES(width) : 1024)
+
+/* A packet's tokens: each comes with a literal of two bytes. */
+#define EL_STREAM_TOKEN_BYTES(width) (EL_STREAM_PACKET_BYTES(width) / 3)
+
+/* What `memory` must hold: a CRC and a bit per line, a packet's tokens, and 3 bytes for the alignment. 1,334 bytes at
+ * 320 x 240; the pixels of a packet are never copied. */
+#define EL_STREAM_MEMORY_BYTES(width, height)                                                                          \
+    (3 + 4 * (size_t)(height) + ((size_t)(height) + 7) / 8 + (size_t)EL_STREAM_TOKEN_BYTES(width))
+
+/* Errors of el_stream_init and el_stream_log. */
+enum {
+    EL_STREAM_BAD_SIZE = -1,   /* width or height outside 1..EL_STREAM_MAX_SIZE */
+    EL_STREAM_BAD_MEMORY = -2, /* memory is NULL or smaller than EL_STREAM_MEMORY_BYTES(width, height) */
+    EL_STREAM_BAD_PORT = -3,   /* port is NULL or lacks write, read (unless one_way) or micros */
+    EL_STREAM_BAD_NAME = -4,   /* a name is NULL or longer than EL_STREAM_MAX_NAME_BYTES */
+    EL_STREAM_LINK_GONE = -5
+};
+
+typedef struct el_stream_config {
+    const el_port *port;  /* outlives the stream */
+    uint16_t width;       /* pixels, 1..EL_STREAM_MAX_SIZE; the renderer's */
+    uint16_t height;      /* lines, likewise */
+    const char *target;   /* what it runs on, UTF-8; outlives the stream */
+    const char *firmware; /* name and version, likewise */
+    uint32_t boot_id;     /* another one after each start */
+    uint32_t max_baud;    /* highest rate of the link, 0 when it has none */
+    bool one_way;         /* see above */
+    void *memory;         /* the stream's as long as it is used; any alignment */
+    size_t memory_bytes;
+} el_stream_config;
+
+enum { EL_STREAM_WAITING, EL_STREAM_RUNNING, EL_STREAM_GONE };
+
+/* The frame that is being drawn. */
+typedef struct el_stream_frame {
+    bool sending;
+    uint16_t number;     /* frames begun before it, modulo 65536 */
+    uint16_t bands;      /* BAND packets sent */
+    uint32_t begin_us;   /* when it began */
+    uint32_t encode_us;  /* spent in the sink, waiting for the link included */
+    uint32_t wire_bytes; /* of its bands */
+} el_stream_frame;
+
+/* One session. The caller owns it and gives it to the functions below; state, credits, damaged and missed may be read. */
+typedef struct el_stream {
+    el_stream_config config;
+    el_packet_writer writer;
+    el_packet_reader reader;
+    uint8_t wire[EL_STREAM_WIRE_BYTES];
+
+    uint32_t *line_crcs; /* [height], of each line as it was sent last */
+    uint8_t *lines_due;  /* a bit per line: send it whatever it holds */
+    uint8_t *tokens;     /* of the band that is being encoded */
+
+    uint8_t state;
+    uint8_t credits;    /* frames that may be sent */
+    uint8_t next_seq;   /* expected from the host */
+    bool hello_due;     /* at the next chance between two packets */
+    uint16_t codecs;    /* EL_STREAM_RAW, EL_STREAM_RUNS: what the host decodes */
+    uint16_t dropped;   /* frames not sent since the last one that was, or since START; stops at 65535 */
+    uint16_t refresh;   /* the next line of EL_STREAM_REFRESH_LINES */
+    const char *notice; /* to be sent as LOG, between two packets */
+    uint32_t period_us; /* between two frames, at least */
+    uint32_t frame_us;  /* when the last frame was due */
+    uint32_t hello_us;  /* when the last HELLO was due */
+    uint32_t heard_us;  /* the last sign of the host, or the last frame's end */
+    uint32_t damaged;   /* chunks of input that were no packets */
+    uint32_t missed;    /* packets of the host that never came, by their seq */
+    el_stream_frame frame;
+} el_stream;
+
+/* Starts a session. Returns 0 or an error; then the stream is unusable. Nothing is sent before el_stream_poll or the
+ * first frame. */
+int el_stream_init(el_stream *stream, const el_stream_config *config);
+
+/* Reads what the host sent, sends what waits and HELLO when it is time; never waits. Call it often, between frames and
+ * when idle; the sink calls it at both ends of a frame. Returns 0, or EL_STREAM_LINK_GONE. */
+int el_stream_poll(el_stream *stream);
+
+/* True when a frame that began now would be sent. */
+bool el_stream_ready(const el_stream *stream);
+
+/* Sends UTF-8 text for the host's log, cut to EL_STREAM_MAX_LOG_BYTES at a character's beginning. Returns the bytes
+ * sent: 0 when no host listens and the port is full, or when the link stalled; or EL_STREAM_LINK_GONE. Waits for the
+ * link while RUNNING. Not within the functions of a sink or a port. */
+int32_t el_stream_log(el_stream *stream, const char *text, size_t count);
+
+/* Waits until the port has taken everything. False when it did not: the session is over then (see above). */
+bool el_stream_flush(el_stream *stream);
+
+/* --- Between session.c and sink.c. ----------------------------------------------------------------------------- */
+
+/* Sends what the port takes now. False when the link is gone. */
+bool el_stream_push(el_stream *stream);
+
+/* Makes lines y0..y1-1 due; y0 <= y1 <= height. */
+void el_stream_make_due(el_stream *stream, uint32_t y0, uint32_t y1);
+
+#endif

@@ -1,0 +1,12 @@
+/* The simulator's commands. Each takes the arguments after its name and returns the exit status. */
+#ifndef EL_SIM_COMMANDS_H
+#define EL_SIM_COMMANDS_H
+
+int el_command_list(int argc, char **argv);
+int el_command_render(int argc, char **argv);
+int el_command_memory(int argc, char **argv);
+int el_command_stream(int argc, char **argv);
+int el_command_coverage(int argc, char **argv);
+int el_command_attributes(int argc, char **argv);
+
+#endif

@@ -1,0 +1,29 @@
+/* Whole files in, and files out that are complete or not there at all. */
+#ifndef EL_SIM_FILES_H
+#define EL_SIM_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Reads a file into memory that the caller frees; it is aligned for any type. NULL, after one line on stderr, when it
+ * cannot be read. */
+uint8_t *el_file_read(const char *path, size_t *size);
+
+/* A file under way: written beside its place and moved there at the end, so that what stood there before is lost only
+ * when the new one is complete. */
+typedef struct el_output {
+    FILE *stream;     /* NULL: not open */
+    const char *path; /* the caller's */
+    char *temporary;
+} el_output;
+
+/* False, after one line on stderr, when it cannot be written. A zeroed el_output is a closed one. */
+bool el_output_open(el_output *output, const char *path);
+/* Moves the file to its place. False, after one line on stderr, when anything could not be written. */
+bool el_output_commit(el_output *output);
+/* Removes what was written. Does nothing to one that is not open. */
+void el_output_discard(el_output *output);
+
+#endif

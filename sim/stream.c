@@ -1,0 +1,207 @@
+/* stream: the product with a serial link, sending what a board would send. */
+#include <getopt.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "machine.h"
+#include "options.h"
+#include "port_posix.h"
+#include "report.h"
+#include "stream/sink.h"
+#include "subject.h"
+
+typedef enum link_kind { LINK_NONE, LINK_PTY, LINK_TCP, LINK_STDOUT } link_kind;
+
+typedef struct stream_options {
+    el_subject_options subject;
+    el_machine_config machine;
+    link_kind link;
+    long tcp_port;
+    long frames; /* 0: until stopped */
+    long baud;   /* 0: as fast as the link goes */
+} stream_options;
+
+static volatile sig_atomic_t stopped;
+
+static void stop(int signal_number)
+{
+    (void)signal_number;
+    stopped = 1;
+}
+
+static bool parse(int argc, char **argv, stream_options *o)
+{
+    enum { SCENE = 1, SIZE, BAND, ARENA, FRAMES, BAUD, PTY, TCP, STDOUT };
+    static const struct option options[] = {
+        {"scene", required_argument, NULL, SCENE},
+        {"size", required_argument, NULL, SIZE},
+        {"band", required_argument, NULL, BAND},
+        {"arena", required_argument, NULL, ARENA},
+        {"frames", required_argument, NULL, FRAMES},
+        {"baud", required_argument, NULL, BAUD},
+        {"pty", no_argument, NULL, PTY},
+        {"tcp", required_argument, NULL, TCP},
+        {"stdout", no_argument, NULL, STDOUT},
+        {NULL, 0, NULL, 0},
+    };
+    *o = (stream_options){.machine = {.width = 320, .height = 240, .band_lines = 8}};
+    long value;
+    int which;
+    int links = 0;
+    optind = 0;
+    opterr = 0;
+    while ((which = getopt_long(argc, argv, "+", options, NULL)) != -1) {
+        bool good = true;
+        switch (which) {
+        case SCENE:
+            o->subject.scene = optarg;
+            break;
+        case SIZE:
+            good = el_option_size("--size", optarg, &o->machine.width, &o->machine.height);
+            break;
+        case BAND:
+            good = el_option_integer("--band", optarg, 1, EL_MAX_HEIGHT, &value);
+            o->machine.band_lines = good ? (uint16_t)value : 0;
+            break;
+        case ARENA:
+            good = el_option_integer("--arena", optarg, 1, 1L << 28, &value);
+            o->machine.arena_bytes = good ? (size_t)value : 0;
+            break;
+        case FRAMES:
+            good = el_option_integer("--frames", optarg, 1, INT_MAX, &o->frames);
+            break;
+        case BAUD:
+            good = el_option_integer("--baud", optarg, 1200, 100000000, &o->baud);
+            break;
+        case PTY:
+            o->link = LINK_PTY;
+            links++;
+            break;
+        case TCP:
+            good = el_option_integer("--tcp", optarg, 0, 65535, &o->tcp_port);
+            o->link = LINK_TCP;
+            links++;
+            break;
+        case STDOUT:
+            o->link = LINK_STDOUT;
+            links++;
+            break;
+        default:
+            el_report("stream: '%s' is unknown or lacks its value", argv[optind - 1]);
+            good = false;
+        }
+        if (!good) {
+            return false;
+        }
+    }
+    if (optind != argc) {
+        el_report("stream: '%s' is no option", argv[optind]);
+        return false;
+    }
+    if (links != 1) {
+        el_report("stream needs one of --pty, --tcp PORT and --stdout");
+        return false;
+    }
+    if (o->machine.band_lines > o->machine.height) {
+        el_report("--band %u is more than the %u lines of the picture", o->machine.band_lines, o->machine.height);
+        return false;
+    }
+    return true;
+}
+
+static bool open_link(const stream_options *o, el_posix_port *port)
+{
+    switch (o->link) {
+    case LINK_PTY:
+        return el_posix_port_open_pty(port);
+    case LINK_TCP:
+        return el_posix_port_open_tcp(port, (uint16_t)o->tcp_port);
+    default:
+        return el_posix_port_open_stdout(port);
+    }
+}
+
+/* Renders when the host has credit for a frame, so that none is drawn for nobody and frame n of the stream is frame n of
+ * the scene. */
+static bool play(const stream_options *o, const el_subject *subject, el_machine *machine, el_stream *stream,
+                 const el_port *link)
+{
+    uint32_t frame = 0;
+    while (!stopped && (o->frames == 0 || frame < (uint32_t)o->frames)) {
+        if (el_stream_poll(stream) == EL_STREAM_LINK_GONE) {
+            return true; /* the reader has what it wanted */
+        }
+        if (!el_stream_ready(stream)) {
+            link->wait(link->context);
+            continue;
+        }
+        const el_status status = el_subject_play(subject, frame, &machine->renderer);
+        if (status != EL_OK) {
+            el_report("frame %u: %s", frame, el_machine_message(status));
+            return false;
+        }
+        frame++;
+    }
+    (void)el_stream_flush(stream);
+    return true;
+}
+
+static bool run(const stream_options *o, const el_subject *subject, el_posix_port *port)
+{
+    const el_port link = el_posix_port_link(port);
+    port->bytes_per_s = (uint32_t)(o->baud / 10); /* a start bit, 8 bits, a stop bit */
+
+    const size_t memory_bytes = EL_STREAM_MEMORY_BYTES(o->machine.width, o->machine.height);
+    uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT)];
+    const el_stream_config config = {
+        .port = &link,
+        .width = o->machine.width,
+        .height = o->machine.height,
+        .target = "simulator",
+        .firmware = "edgeline 0.1.0",
+        .boot_id = (uint32_t)time(NULL) * 2654435761U ^ (uint32_t)getpid(),
+        .one_way = o->link == LINK_STDOUT,
+        .memory = memory,
+        .memory_bytes = memory_bytes,
+    };
+    el_stream stream;
+    if (el_stream_init(&stream, &config) != 0) {
+        el_report("the stream refuses its configuration");
+        return false;
+    }
+    const el_sink sink = el_stream_sink(&stream);
+    el_machine_config machine_config = o->machine;
+    machine_config.background = el_subject_background(subject);
+    machine_config.extra_sink = &sink;
+    el_machine machine = {0};
+    const bool good = el_machine_open(&machine, &machine_config) && play(o, subject, &machine, &stream, &link);
+    el_machine_close(&machine);
+    return good;
+}
+
+int el_command_stream(int argc, char **argv)
+{
+    stream_options o;
+    if (!parse(argc + 1, argv - 1, &o)) {
+        return EL_EXIT_BAD;
+    }
+    el_subject subject = {0};
+    el_posix_port port = {0};
+    bool good = el_subject_open(&subject, &o.subject);
+    if (good && open_link(&o, &port)) {
+        fflush(stdout);
+        const struct sigaction action = {.sa_handler = stop};
+        sigaction(SIGINT, &action, NULL);
+        sigaction(SIGTERM, &action, NULL);
+        good = run(&o, &subject, &port);
+        el_posix_port_close(&port);
+    } else {
+        good = false;
+    }
+    el_subject_close(&subject);
+    return good ? EL_EXIT_OK : EL_EXIT_BAD;
+}

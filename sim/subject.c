@@ -1,0 +1,178 @@
+#include "subject.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "files.h"
+#include "geometry/elm.h"
+#include "machine.h"
+#include "options.h"
+#include "report.h"
+
+/* From the upper left and the viewer's side; (-2, 3, 2) / sqrt(17). */
+static const el_light light = {.direction_q30 = {-520841137, 781261706, 520841137}, .ambient = 70, .diffuse = 185};
+
+static const double max_position = 16384;
+
+static int32_t q16(double value)
+{
+    return (int32_t)lround(value * 65536.0);
+}
+
+static bool choose_shading(el_subject *subject, const el_subject_options *options)
+{
+    static const char *const names[] = {"flat", "gouraud", "textured"};
+    el_material *const material = &subject->material;
+    const bool has_texture = subject->texture.texels != NULL;
+    material->shading = has_texture ? EL_SHADE_TEXTURED : EL_SHADE_GOURAUD;
+    if (options->shading != NULL) {
+        unsigned i = 0;
+        while (i < 3 && strcmp(options->shading, names[i]) != 0) {
+            i++;
+        }
+        if (i == 3) {
+            el_report("--shading takes flat, gouraud or textured, not '%s'", options->shading);
+            return false;
+        }
+        material->shading = (uint8_t)i;
+    }
+    if (material->shading == EL_SHADE_TEXTURED && !has_texture) {
+        el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", options->mesh);
+        return false;
+    }
+    material->texture = &subject->texture;
+    material->light = subject->mesh.normals != NULL && material->shading != EL_SHADE_TEXTURED ? &light : NULL;
+    return true;
+}
+
+/* By default the camera stands where the bounding sphere just fits, half to the right and above. */
+static bool place_camera(el_subject *subject, const el_subject_options *options)
+{
+    const double unit = ldexp(1, subject->mesh.scale_log2);
+    const double radius = (subject->mesh.radius > 0 ? subject->mesh.radius : 1) * unit;
+    double target[3];
+    double eye[3];
+    double fov = 45;
+    for (int i = 0; i < 3; i++) {
+        target[i] = subject->mesh.centre[i] * unit;
+    }
+    if (options->fov != NULL && !el_option_number("--fov", options->fov, 1, 179, &fov)) {
+        return false;
+    }
+    if (options->look_at != NULL && !el_option_vector("--look-at", options->look_at, max_position, target)) {
+        return false;
+    }
+    static const double direction[3] = {0.48, 0.36, 0.8};
+    const double fitting = radius / sin(fov * (M_PI / 360)) * 1.02;
+    double distance = 0;
+    for (int i = 0; i < 3; i++) {
+        eye[i] = target[i] + direction[i] * fitting;
+    }
+    if (options->eye != NULL && !el_option_vector("--eye", options->eye, max_position, eye)) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double difference = subject->mesh.centre[i] * unit - eye[i];
+        distance += difference * difference;
+    }
+    distance = sqrt(distance);
+    double far = distance + radius * 1.1;
+    double near = fmax(distance - radius * 1.1, far / 1000);
+    if ((options->near != NULL && !el_option_number("--near", options->near, 0.00025, max_position, &near)) ||
+        (options->far != NULL && !el_option_number("--far", options->far, 0.00025, max_position, &far))) {
+        return false;
+    }
+
+    static const int32_t up_q16[3] = {0, EL_UNIT_Q16, 0};
+    el_camera *const camera = &subject->camera;
+    int32_t eye_q16[3];
+    int32_t target_q16[3];
+    for (int i = 0; i < 3; i++) {
+        if (fabs(eye[i]) > max_position || far > max_position) {
+            el_report("%s is too large for the default camera: give --eye and --far", options->mesh);
+            return false;
+        }
+        eye_q16[i] = q16(eye[i]);
+        target_q16[i] = q16(target[i]);
+    }
+    camera->projection = EL_PERSPECTIVE;
+    camera->fov_y = (el_angle)llround(fov / 360 * 4294967296.0);
+    camera->near_q16 = (uint32_t)q16(near);
+    camera->far_q16 = (uint32_t)q16(far);
+    const el_status status = el_camera_look_at(camera, eye_q16, target_q16, up_q16);
+    if (status != EL_OK) {
+        el_report("%s", el_machine_message(status));
+    }
+    return status == EL_OK;
+}
+
+static bool open_mesh(el_subject *subject, const el_subject_options *options)
+{
+    size_t size;
+    subject->file = el_file_read(options->mesh, &size);
+    if (subject->file == NULL) {
+        return false;
+    }
+    const el_elm_status status = el_elm_open(subject->file, size, &subject->mesh, &subject->texture);
+    if (status != EL_ELM_OK) {
+        el_report("%s: %s", options->mesh, el_elm_message(status));
+        return false;
+    }
+    subject->material.colour[0] = 200;
+    subject->material.colour[1] = 200;
+    subject->material.colour[2] = 200;
+    return choose_shading(subject, options) && place_camera(subject, options);
+}
+
+bool el_subject_open(el_subject *subject, const el_subject_options *options)
+{
+    *subject = (el_subject){0};
+    if (options->mesh != NULL) {
+        if (options->scene != NULL) {
+            el_report("--scene and --mesh exclude each other");
+            return false;
+        }
+        return open_mesh(subject, options);
+    }
+    if (options->eye != NULL || options->look_at != NULL || options->fov != NULL || options->near != NULL ||
+        options->far != NULL || options->shading != NULL) {
+        el_report("--eye, --look-at, --fov, --near, --far and --shading go with --mesh; a scene has its own camera");
+        return false;
+    }
+    const char *const name = options->scene != NULL ? options->scene : "demo";
+    subject->scene = el_scene_find(name);
+    if (subject->scene == NULL) {
+        el_report("there is no scene '%s'; `edgeline-sim list` names them", name);
+    }
+    return subject->scene != NULL;
+}
+
+void el_subject_close(el_subject *subject)
+{
+    free(subject->file);
+    *subject = (el_subject){0};
+}
+
+uint16_t el_subject_background(const el_subject *subject)
+{
+    return subject->scene != NULL ? subject->scene->background : 0;
+}
+
+el_status el_subject_play(const el_subject *subject, uint32_t frame, el_renderer *renderer)
+{
+    if (subject->scene != NULL) {
+        return el_scene_play(subject->scene, frame, renderer);
+    }
+    el_status status = el_frame_begin(renderer, &subject->camera);
+    if (status != EL_OK) {
+        return status;
+    }
+    const el_pose pose = el_pose_identity();
+    int more;
+    do {
+        status = el_draw(renderer, &subject->mesh, &pose, &subject->material);
+        more = el_frame_next(renderer);
+    } while (more > 0);
+    return more < 0 ? (el_status)more : status;
+}

@@ -1,0 +1,36 @@
+/* What is drawn: a scene by its name, or a mesh from a file with a camera from the command line. */
+#ifndef EL_SIM_SUBJECT_H
+#define EL_SIM_SUBJECT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "edgeline.h"
+#include "scene.h"
+
+/* The command line's wishes; NULL where there is none. */
+typedef struct el_subject_options {
+    const char *scene;
+    const char *mesh;
+    const char *eye, *look_at, *fov, *near, *far, *shading;
+} el_subject_options;
+
+typedef struct el_subject {
+    const el_scene *scene; /* or: */
+    uint8_t *file;
+    el_mesh mesh;
+    el_texture texture;
+    el_material material;
+    el_camera camera;
+} el_subject;
+
+/* False after one line on stderr. Close it in any case. */
+bool el_subject_open(el_subject *subject, const el_subject_options *options);
+void el_subject_close(el_subject *subject);
+
+uint16_t el_subject_background(const el_subject *subject);
+
+/* Draws a whole frame. */
+el_status el_subject_play(const el_subject *subject, uint32_t frame, el_renderer *renderer);
+
+#endif
