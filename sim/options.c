@@ -65,3 +65,13 @@ bool el_option_size(const char *option, const char *text, uint16_t *width, uint1
     *height = (uint16_t)h;
     return true;
 }
+
+bool el_option_band(const char *text, uint16_t height, uint16_t *lines)
+{
+    long value = height < 8 ? height : 8;
+    if (text != NULL && !el_option_integer("--band", text, 1, height, &value)) {
+        return false;
+    }
+    *lines = (uint16_t)value;
+    return true;
+}

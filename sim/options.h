@@ -12,5 +12,7 @@ bool el_option_number(const char *option, const char *text, double least, double
 bool el_option_vector(const char *option, const char *text, double limit, double vector[3]);
 /* "WIDTHxHEIGHT", each 1..EL_MAX_WIDTH, EL_MAX_HEIGHT. */
 bool el_option_size(const char *option, const char *text, uint16_t *width, uint16_t *height);
+/* Lines of a band, 1 to `height`; without a text (NULL) 8, or `height` where that is less. */
+bool el_option_band(const char *text, uint16_t height, uint16_t *lines);
 
 #endif

@@ -120,7 +120,8 @@ static bool sample(const el_corner corners[3], int32_t x, int32_t y, FILE *out)
 {
     static const uint16_t texel = 0;
     static const el_texture texture = {.texels = &texel};
-    const el_surface surface = {.shading = EL_SHADE_TEXTURED_GOURAUD, .depth = true, .texture = &texture};
+    const el_surface surface = {
+        .shading = EL_SHADE_TEXTURED_GOURAUD, .depth = true, .uv_error_log2 = 3, .texture = &texture};
     el_triangle triangle;
     el_sample values;
     if (!el_triangle_setup(&triangle, corners, &surface, y) || triangle.y != y || x < triangle.edges[0].x ||

@@ -53,7 +53,8 @@ static bool parse(int argc, char **argv, render_options *o)
         {"near", required_argument, NULL, NEAR},       {"far", required_argument, NULL, FAR},
         {"shading", required_argument, NULL, SHADING}, {NULL, 0, NULL, 0},
     };
-    *o = (render_options){.machine = {.width = 320, .height = 240, .band_lines = 8}, .frames = 1};
+    *o = (render_options){.machine = {.width = 320, .height = 240}, .frames = 1};
+    const char *band = NULL;
     long value;
     int which;
     optind = 0; /* argv begins with the first argument's predecessor, see el_command_render */
@@ -71,8 +72,7 @@ static bool parse(int argc, char **argv, render_options *o)
             good = el_option_size("--size", optarg, &o->machine.width, &o->machine.height);
             break;
         case BAND:
-            good = el_option_integer("--band", optarg, 1, EL_MAX_HEIGHT, &value);
-            o->machine.band_lines = good ? (uint16_t)value : 0;
+            band = optarg;
             break;
         case ARENA:
             good = el_option_integer("--arena", optarg, 1, 1L << 28, &value);
@@ -126,8 +126,7 @@ static bool parse(int argc, char **argv, render_options *o)
         el_report("render: '%s' is no option", argv[optind]);
         return false;
     }
-    if (o->machine.band_lines > o->machine.height) {
-        el_report("--band %u is more than the %u lines of the picture", o->machine.band_lines, o->machine.height);
+    if (!el_option_band(band, o->machine.height, &o->machine.band_lines)) {
         return false;
     }
     return true;

@@ -48,7 +48,8 @@ static bool parse(int argc, char **argv, stream_options *o)
         {"stdout", no_argument, NULL, STDOUT},
         {NULL, 0, NULL, 0},
     };
-    *o = (stream_options){.machine = {.width = 320, .height = 240, .band_lines = 8}};
+    *o = (stream_options){.machine = {.width = 320, .height = 240}};
+    const char *band = NULL;
     long value;
     int which;
     int links = 0;
@@ -64,8 +65,7 @@ static bool parse(int argc, char **argv, stream_options *o)
             good = el_option_size("--size", optarg, &o->machine.width, &o->machine.height);
             break;
         case BAND:
-            good = el_option_integer("--band", optarg, 1, EL_MAX_HEIGHT, &value);
-            o->machine.band_lines = good ? (uint16_t)value : 0;
+            band = optarg;
             break;
         case ARENA:
             good = el_option_integer("--arena", optarg, 1, 1L << 28, &value);
@@ -106,8 +106,7 @@ static bool parse(int argc, char **argv, stream_options *o)
         el_report("stream needs one of --pty, --tcp PORT and --stdout");
         return false;
     }
-    if (o->machine.band_lines > o->machine.height) {
-        el_report("--band %u is more than the %u lines of the picture", o->machine.band_lines, o->machine.height);
+    if (!el_option_band(band, o->machine.height, &o->machine.band_lines)) {
         return false;
     }
     return true;

@@ -79,8 +79,8 @@ static bool place_camera(el_subject *subject, const el_subject_options *options)
     distance = sqrt(distance);
     double far = distance + radius * 1.1;
     double near = fmax(distance - radius * 1.1, far / 1000);
-    if ((options->near != NULL && !el_option_number("--near", options->near, 0.00025, max_position, &near)) ||
-        (options->far != NULL && !el_option_number("--far", options->far, 0.00025, max_position, &far))) {
+    if ((options->near != NULL && !el_option_number("--near", options->near, 1.0 / 4096, max_position, &near)) ||
+        (options->far != NULL && !el_option_number("--far", options->far, 1.0 / 4096, max_position, &far))) {
         return false;
     }
 

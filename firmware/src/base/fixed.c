@@ -67,8 +67,7 @@ int64_t el_shift_i64(int64_t value, int shift)
         return 0;
     }
     if (shift > 0) {
-        /* Halve first, so that adding the rounding bit cannot overflow. */
-        return ((value >> (shift - 1)) + 1) >> 1;
+        return (value >> shift) + ((value >> (shift - 1)) & 1);
     }
     const uint64_t magnitude = el_abs_u64(value);
     if (el_bit_length_u64(magnitude) - shift > 63) {

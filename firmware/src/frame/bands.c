@@ -99,6 +99,7 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
         el_corner corners[3];
         el_surface surface;
         el_list_gather(list, record, corners, &surface);
+        surface.uv_error_log2 = renderer->config.uv_error_log2;
         renderer->stats.setups++;
         if (!el_triangle_setup(&local, corners, &surface, target->y)) {
             return false;

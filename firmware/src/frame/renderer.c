@@ -9,7 +9,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_ARGUMENT;
     }
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
-        config->band_lines < 1 || config->band_lines > config->height) {
+        config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5) {
         return EL_ERROR_SIZE;
     }
     const uint32_t width = config->width;
@@ -18,6 +18,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_MEMORY;
     }
     *renderer = (el_renderer){.config = *config};
+    renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
     renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
     renderer->pass_bands = renderer->band_count;
 

@@ -57,12 +57,13 @@ enum {
      EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES)
 
 typedef struct el_config {
-    uint16_t width;                     /* pixels, 1..EL_MAX_WIDTH */
-    uint16_t height;                    /* lines, 1..EL_MAX_HEIGHT */
-    uint16_t band_lines;                /* lines per band, 1..height */
-    uint16_t background;                /* RGB565 */
-    void *memory;                       /* the arena, the renderer's until the last frame is done; aligned to 8 bytes */
-    size_t memory_bytes;                /* at least EL_MIN_MEMORY_BYTES */
+    uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
+    uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
+    uint16_t band_lines;   /* lines per band, 1..height */
+    uint16_t background;   /* RGB565 */
+    uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; 0: 3, an eighth */
+    void *memory;          /* the arena, the renderer's until the last frame is done; aligned to 8 bytes */
+    size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
 } el_config;
 

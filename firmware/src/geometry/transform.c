@@ -110,13 +110,19 @@ static bool is_reflection(const int32_t m_q30[3][3])
     return determinant < 0;
 }
 
-/* A linear form on position units, q46: value = offset + sum(row * p), in world units. */
+/* A coordinate in view space as a linear form on positions, in world units: (offset + sum(row * p)), Q44. World positions
+ * differ by at most 2^15 per axis and meshes reach at most 2^15 from their origin (checked), so offsets and sums stay
+ * below 3 * 2^59. The rows that are drawn with come from `exact`, which keeps the bits of small scales:
+ * exact * 2^exponent is a row's element in world units, |exact| < 2^60. */
 typedef struct el_form {
     int64_t row[3];
     int64_t offset;
+    int64_t exact[3];
 } el_form;
 
-/* Length of a row, rounded up: |row| <= 2^47 here. */
+enum { FORM_BITS = 44 };
+
+/* Length of a row, rounded up. */
 static uint64_t row_length(const int64_t row[3])
 {
     const uint64_t all = el_abs_u64(row[0]) | el_abs_u64(row[1]) | el_abs_u64(row[2]);
@@ -143,80 +149,124 @@ static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
 static int64_t scale_by(int64_t value, el_factor factor, int shift)
 {
     const int total = factor.exponent + shift;
+    if (total > 94) {
+        return 0;
+    }
     return total >= 0 ? el_scale_i64(value, factor.mantissa, total)
                       : el_shift_i64(el_scale_i64(value, factor.mantissa, 0), total);
 }
 
-/* The view-space rows of the mesh (right, up, distance). False when the mesh leaves the world.
- * Widths: an axis times a rotation is at most 3 * 2^60; a row in Q46 below 2^45, so that a row times a position
- * (2^15) stays below 2^60, and the sum of three and the offset (below 2^63 / 2, see there) below 2^63. */
-static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *pose, el_form forms[3])
+/* How far the mesh reaches from its origin along any axis, in position units. */
+static uint32_t reach_of(const el_mesh *mesh)
+{
+    uint32_t reach = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const uint32_t distance = (uint32_t)el_abs_u64(mesh->centre[i]);
+        reach = distance > reach ? distance : reach;
+    }
+    return reach + mesh->radius + 1U;
+}
+
+/* The view-space rows of the mesh: right, up, distance. False when the mesh leaves the world. */
+static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *pose, el_form forms[3], int *exponent)
 {
     /* The scale with at most 28 bits: model scales below 4096 with their whole fraction. */
     const int excess = el_bit_length_u32(pose->scale_q16) - 28;
     const int scale_shift = excess > 0 ? excess : 0;
     const int64_t scale = pose->scale_q16 >> scale_shift;
+    *exponent = scale_shift + mesh->scale_log2 - (30 + 16);
+    /* |row| * reach < 2^(FORM_BITS + 15) */
+    const int row_bits = FORM_BITS + 15 - el_bit_length_u32(reach_of(mesh));
 
     for (unsigned i = 0; i < 3; i++) {
         const int32_t *axis = view->axes_q30[i];
         const int sign = i == 2 ? -1 : 1; /* distance runs against the backward axis */
         int64_t offset = 0;
         for (unsigned j = 0; j < 3; j++) {
-            /* Q30 * Q16; positions within +-2^30 differ by at most 2^31, so a term is at most 2^61. */
+            /* Q30 * Q16 is Q46; positions within +-2^30 differ by at most 2^31, so a term is at most 2^61. */
             offset += (int64_t)axis[j] * ((int64_t)pose->position_q16[j] - view->position_q16[j]);
 
-            int64_t dot = 0;
+            int64_t dot = 0; /* at most 3 * 2^60 */
             for (unsigned k = 0; k < 3; k++) {
                 dot += (int64_t)axis[k] * pose->rotation_q30[k][j];
             }
-            const int64_t row_q46 = el_shift_i64(dot, 30) * scale; /* below 2^32 * 2^28 */
-            forms[i].row[j] = sign * el_shift_i64(row_q46, -(scale_shift + mesh->scale_log2));
-            if (el_bit_length_u64(el_abs_u64(forms[i].row[j])) > 45) {
+            forms[i].exact[j] = sign * (el_shift_i64(dot, 30) * scale); /* below 2^32 * 2^28 */
+            forms[i].row[j] = el_shift_i64(forms[i].exact[j], -(*exponent + FORM_BITS));
+            if (el_bit_length_u64(el_abs_u64(forms[i].row[j])) > row_bits) {
                 return false;
             }
         }
-        forms[i].offset = sign * offset;
-        if (el_bit_length_u64(el_abs_u64(offset)) > 62) {
-            return false;
-        }
+        forms[i].offset = sign * el_shift_i64(offset, 46 - FORM_BITS);
     }
     return true;
 }
 
+/* Whether the sphere lies beyond the plane `form >= 0`. Rows and offsets are rounded to a unit, and a row times a
+ * position is off by 2^16 units then: the sphere gets that much more room. */
+static bool is_beyond(const el_form *plane, const el_mesh *mesh)
+{
+    const int64_t reach = (int64_t)(row_length(plane->row) * mesh->radius);
+    return form_at_centre(plane, mesh) + reach + (1LL << 20) < 0;
+}
+
 static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el_form forms[3])
 {
-    const el_form *distance = &forms[2];
-    const int64_t reach = (int64_t)(row_length(distance->row) * mesh->radius);
-    const int64_t centre = form_at_centre(distance, mesh);
-    if (centre + reach < (int64_t)view->near_q16 << 30 || centre - reach > (int64_t)view->far_q16 << 30) {
+    const el_form *const distance = &forms[2];
+    el_form plane = *distance;
+    plane.offset = distance->offset - ((int64_t)view->near_q16 << (FORM_BITS - 16));
+    if (is_beyond(&plane, mesh)) {
+        return true;
+    }
+    plane.offset = ((int64_t)view->far_q16 << (FORM_BITS - 16)) - distance->offset;
+    for (unsigned j = 0; j < 3; j++) {
+        plane.row[j] = -distance->row[j];
+    }
+    if (is_beyond(&plane, mesh)) {
         return true;
     }
     for (unsigned i = 0; i < 4; i++) {
-        /* w - x, w + x, w - y, w + y: inside where they are not negative. Halved, to keep 63 bits. */
-        const el_form *side = &forms[i / 2];
+        /* w - x, w + x, w - y, w + y: inside where they are not negative. Divided by a power of two that is larger than
+         * 1 + focal, so that the plane's values are no larger than the forms'. */
+        const el_form *const side = &forms[i / 2];
+        const el_factor focal = view->focal[i / 2];
         const int sign = (i & 1U) != 0 ? 1 : -1;
+        const int shift = focal.exponent < 31 ? 32 - focal.exponent : 1;
         const bool perspective = view->projection == EL_PERSPECTIVE;
-        el_form plane;
+        const int64_t one = (int64_t)1 << FORM_BITS;
         for (unsigned j = 0; j < 3; j++) {
             plane.row[j] =
-                sign * scale_by(side->row[j], view->focal[i / 2], 1) + (perspective ? distance->row[j] / 2 : 0);
+                sign * scale_by(side->row[j], focal, shift) + (perspective ? el_shift_i64(distance->row[j], shift) : 0);
         }
         plane.offset =
-            sign * scale_by(side->offset, view->focal[i / 2], 1) + (perspective ? distance->offset / 2 : (1LL << 45));
-        const uint64_t length = row_length(plane.row);
-        if (el_bit_length_u64(length) <= 46 &&
-            form_at_centre(&plane, mesh) + (int64_t)(length * mesh->radius) + (1LL << 20) < 0) {
+            sign * scale_by(side->offset, focal, shift) + el_shift_i64(perspective ? distance->offset : one, shift);
+        if (is_beyond(&plane, mesh)) {
             return true;
         }
     }
     return false;
 }
 
+/* The draw's unit, 2^-unit world units: the smallest in which |x|, |y|, d and w are below 2^30 for the whole sphere. */
+static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form forms[3], const el_factor factors[3])
+{
+    /* Wide fields of view have focal factors up to 2^17, so the largest coordinate is taken with 22 bits less. */
+    enum { COARSE = 22 };
+    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : (int64_t)1 << (FORM_BITS - COARSE);
+    for (unsigned i = 0; i < 3; i++) {
+        const uint64_t reach = row_length(forms[i].row) * (mesh->radius + 1U);
+        const uint64_t bound = el_abs_u64(form_at_centre(&forms[i], mesh)) + reach; /* below 2^62 */
+        const int64_t scaled = scale_by((int64_t)bound, factors[i], COARSE) + 1;
+        largest = scaled > largest ? scaled : largest;
+    }
+    return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
+}
+
 int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
 {
     el_form forms[3];
+    int exponent;
     if (outside_world(pose->position_q16) || outside_unit(pose->rotation_q30) || pose->scale_q16 == 0 ||
-        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms)) {
+        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms, &exponent)) {
         return EL_ERROR_RANGE;
     }
     if (sphere_is_outside(view, mesh, forms)) {
@@ -225,25 +275,13 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
 
     const el_factor one = {.mantissa = 1U << 30, .exponent = 30};
     const el_factor factors[3] = {view->focal[0], view->focal[1], one};
-
-    /* The unit: 2^-unit_log2 world units, so that |x|, |y|, d < 2^30 for the whole sphere. */
-    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : 1LL << 46;
-    for (unsigned i = 0; i < 3; i++) {
-        const uint64_t reach = row_length(forms[i].row) * (mesh->radius + 1U);
-        uint64_t bound = el_abs_u64(form_at_centre(&forms[i], mesh)) + reach;
-        if (bound > INT64_MAX) {
-            bound = INT64_MAX;
-        }
-        const int64_t scaled = scale_by((int64_t)bound, factors[i], 0);
-        largest = scaled > largest ? scaled : largest;
-    }
-    const int unit_log2 = 30 - (el_bit_length_u64((uint64_t)largest) - 46);
+    const int unit_log2 = choose_unit(view, mesh, forms, factors);
 
     /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
     int64_t rows[9];
     uint64_t all = 0;
     for (unsigned i = 0; i < 9; i++) {
-        rows[i] = scale_by(forms[i / 3].row[i % 3], factors[i / 3], 46 - unit_log2 - 31);
+        rows[i] = scale_by(forms[i / 3].exact[i % 3], factors[i / 3], -(exponent + unit_log2 + 31));
         all |= el_abs_u64(rows[i]);
     }
     const int excess = el_bit_length_u64(all) - 31;
@@ -253,7 +291,7 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     }
     transform->shift = (uint8_t)(31 - drop);
     for (unsigned i = 0; i < 3; i++) {
-        const int shift = 46 - unit_log2 - transform->shift;
+        const int shift = FORM_BITS - unit_log2 - transform->shift;
         /* Rounding of the shifted sum is made here, once. */
         const int64_t half = (int64_t)1 << (transform->shift - 1);
         transform->offsets[i] = scale_by(forms[i].offset, factors[i], shift) + half;

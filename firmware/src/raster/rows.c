@@ -1,6 +1,6 @@
 /* The loops: rows of a triangle, pixels of a span. Each shading, with and without depth, is the same code with its
  * choices made at compile time, so that none pays for another. */
-#include "base/rgb565.h"
+#include "raster/texture_walk.h"
 #include "raster/triangle.h"
 
 /* Rounding to nearest at the end is made once, at the start of a span. */
@@ -21,23 +21,10 @@ static inline stepped stepped_at(const el_plane *plane, int32_t x, uint32_t half
     return (stepped){.value = (uint32_t)(start >> 16) + half, .step = (uint32_t)((plane->dx + 0x8000U) >> 16)};
 }
 
-/* A value that is stepped in 64 bits: 1/w, u/w and v/w need all of their 31 bits at every pixel. */
-typedef struct wide {
-    uint64_t value;
-    uint64_t step;
-} wide;
-
-static inline wide wide_at(const el_plane *plane, int32_t x)
-{
-    const uint64_t half = 1ULL << 31;
-    return (wide){.value = plane->row + plane->dx * (uint64_t)(int64_t)x + half, .step = plane->dx};
-}
-
-/* What a span carries from pixel to pixel. */
+/* What a span carries from pixel to pixel, texture coordinates apart. */
 typedef struct span {
     stepped z;
     stepped rgb[3];
-    wide w, u, v;
 } span;
 
 /* The choices that the compiler makes once per loop. */
@@ -53,11 +40,6 @@ static inline span span_begin(const el_triangle *triangle, int32_t x, loop_kind 
     if (kind.depth) {
         s.z = stepped_at(&triangle->planes[EL_PLANE_Z], x, HALF_Q16);
     }
-    if (kind.texture) {
-        s.w = wide_at(&triangle->planes[EL_PLANE_W], x);
-        s.u = wide_at(&triangle->planes[EL_PLANE_U], x);
-        s.v = wide_at(&triangle->planes[EL_PLANE_V], x);
-    }
     if (kind.colours) {
         const el_plane *planes = &triangle->planes[kind.texture ? EL_PLANE_LIGHT_RED : EL_PLANE_RED];
         for (unsigned i = 0; i < 3; i++) {
@@ -72,11 +54,6 @@ static inline void span_step(span *s, loop_kind kind)
     if (kind.depth) {
         s->z.value += s->z.step;
     }
-    if (kind.texture) {
-        s->w.value += s->w.step;
-        s->u.value += s->u.step;
-        s->v.value += s->v.step;
-    }
     if (kind.colours) {
         for (unsigned i = 0; i < 3; i++) {
             s->rgb[i].value += s->rgb[i].step;
@@ -84,33 +61,10 @@ static inline void span_step(span *s, loop_kind kind)
     }
 }
 
-/* base + (numerator << shift) / w, Q16 texels, rounded down. |numerator << shift| < 2^59; at covered pixels the quotient
- * lies within the corners' range, and 1/w is at least the least corner's, so neither can overflow. */
-static inline int32_t texture_coordinate(uint64_t numerator_q32, uint64_t w_q32, uint8_t shift, int32_t base_q16)
+static inline uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint32_t v_q16)
 {
-    const int64_t numerator = (int64_t)(int32_t)(uint32_t)(numerator_q32 >> 32) * ((int64_t)1 << shift);
-    const int64_t w = (int64_t)(uint32_t)(w_q32 >> 32);
-    int64_t quotient = numerator / w;
-    if (quotient * w > numerator) {
-        quotient--;
-    }
-    return (int32_t)(base_q16 + quotient);
-}
-
-static inline int32_t span_u_q16(const span *s, const el_triangle *triangle)
-{
-    return texture_coordinate(s->u.value, s->w.value, triangle->u_shift, triangle->u_base_q16);
-}
-
-static inline int32_t span_v_q16(const span *s, const el_triangle *triangle)
-{
-    return texture_coordinate(s->v.value, s->w.value, triangle->v_shift, triangle->v_base_q16);
-}
-
-static inline uint16_t texel_at(const el_texture *texture, int32_t u_q16, int32_t v_q16)
-{
-    const uint32_t column = ((uint32_t)u_q16 >> 16) & ((1U << texture->width_log2) - 1U);
-    const uint32_t line = ((uint32_t)v_q16 >> 16) & ((1U << texture->height_log2) - 1U);
+    const uint32_t column = (u_q16 >> 16) & ((1U << texture->width_log2) - 1U);
+    const uint32_t line = (v_q16 >> 16) & ((1U << texture->height_log2) - 1U);
     return texture->texels[(line << texture->width_log2) + column];
 }
 
@@ -125,29 +79,60 @@ static inline uint16_t modulate(uint16_t texel, const stepped light[3])
 
 static inline uint16_t span_colour(const span *s, const el_triangle *triangle, loop_kind kind)
 {
-    if (kind.texture) {
-        const uint16_t texel = texel_at(triangle->surface.texture, span_u_q16(s, triangle), span_v_q16(s, triangle));
-        return kind.colours ? modulate(texel, s->rgb) : texel;
-    }
     if (kind.colours) {
         return (uint16_t)((s->rgb[0].value >> 27 << 11) | (s->rgb[1].value >> 26 << 5) | s->rgb[2].value >> 27);
     }
     return triangle->surface.colour;
 }
 
-/* Pixels [x, x_end) of one row. */
-static inline void draw_span(const el_triangle *triangle, uint16_t *colour, uint16_t *depth, int32_t x, int32_t x_end,
-                             loop_kind kind)
+/* Whether the pixel is drawn; its depth is stored then. */
+static inline bool passes(const span *s, uint16_t *depth, loop_kind kind)
+{
+    if (!kind.depth) {
+        return true;
+    }
+    const uint32_t z = s->z.value >> 16;
+    if (z >= *depth) {
+        return false;
+    }
+    *depth = (uint16_t)z;
+    return true;
+}
+
+/* Pixels [x, x_end) of one row, in one colour or in the vertices' colours. */
+static inline void draw_coloured(const el_triangle *triangle, uint16_t *colour, uint16_t *depth, int32_t x,
+                                 int32_t x_end, loop_kind kind)
 {
     span s = span_begin(triangle, x, kind);
     for (; x < x_end; x++) {
-        if (!kind.depth) {
-            colour[x] = span_colour(&s, triangle, kind);
-        } else if ((s.z.value >> 16) < depth[x]) {
-            depth[x] = (uint16_t)(s.z.value >> 16);
+        if (passes(&s, &depth[x], kind)) {
             colour[x] = span_colour(&s, triangle, kind);
         }
         span_step(&s, kind);
+    }
+}
+
+/* The same with a texture, in pieces along which texture coordinates are linear. */
+static inline void draw_textured(const el_triangle *triangle, uint16_t *colour, uint16_t *depth, int32_t x,
+                                 int32_t x_end, loop_kind kind)
+{
+    span s = span_begin(triangle, x, kind);
+    el_texture_walk walk;
+    el_texture_walk_begin(&walk, triangle, x);
+    while (x < x_end) {
+        const int32_t length = el_texture_walk_piece(&walk, triangle, x_end - x);
+        uint32_t u_q16 = (uint32_t)walk.u_q16;
+        uint32_t v_q16 = (uint32_t)walk.v_q16;
+        for (const int32_t piece_end = x + length; x < piece_end; x++) {
+            if (passes(&s, &depth[x], kind)) {
+                const uint16_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
+                colour[x] = kind.colours ? modulate(texel, s.rgb) : texel;
+            }
+            span_step(&s, kind);
+            u_q16 += (uint32_t)walk.u_step_q16;
+            v_q16 += (uint32_t)walk.v_step_q16;
+        }
+        el_texture_walk_next(&walk, triangle, length);
     }
 }
 
@@ -189,8 +174,10 @@ static inline void draw_rows(el_triangle *triangle, const el_target *target, el_
             stats->pixels += (uint32_t)(x_end - x);
             if (count) {
                 count_span(target->colour + row, x, x_end);
+            } else if (kind.texture) {
+                draw_textured(triangle, target->colour + row, target->depth + row, x, x_end, kind);
             } else {
-                draw_span(triangle, target->colour + row, target->depth + row, x, x_end, kind);
+                draw_coloured(triangle, target->colour + row, target->depth + row, x, x_end, kind);
             }
         }
         next_row(triangle);
@@ -247,18 +234,28 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
 void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample)
 {
     const loop_kind kind = kind_of(&triangle->surface);
-    const int32_t left = triangle->edges[0].x;
-    int32_t at = left < 0 ? 0 : left;
-    span s = span_begin(triangle, at, kind);
-    for (; at < x && at < width; at++) {
+    const int32_t begin = triangle->edges[0].x < 0 ? 0 : triangle->edges[0].x;
+    const int32_t end = triangle->edges[1].x > width ? width : triangle->edges[1].x;
+    span s = span_begin(triangle, begin, kind);
+    for (int32_t at = begin; at < x; at++) {
         span_step(&s, kind);
     }
     *sample = (el_sample){.z_plus_half_q16 = s.z.value};
     for (unsigned i = 0; i < 3; i++) {
         sample->rgb_plus_half_q24[i] = s.rgb[i].value;
     }
-    if (kind.texture) {
-        sample->u_q16 = span_u_q16(&s, triangle);
-        sample->v_q16 = span_v_q16(&s, triangle);
+    if (!kind.texture) {
+        return;
     }
+    el_texture_walk walk;
+    el_texture_walk_begin(&walk, triangle, begin);
+    int32_t at = begin;
+    int32_t length = el_texture_walk_piece(&walk, triangle, end - at);
+    while (x >= at + length) {
+        el_texture_walk_next(&walk, triangle, length);
+        at += length;
+        length = el_texture_walk_piece(&walk, triangle, end - at);
+    }
+    sample->u_q16 = walk.u_q16 + (x - at) * walk.u_step_q16;
+    sample->v_q16 = walk.v_q16 + (x - at) * walk.v_step_q16;
 }

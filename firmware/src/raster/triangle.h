@@ -40,6 +40,7 @@ typedef struct el_surface {
     el_shading shading;
     bool depth;                /* test and write depth */
     uint16_t colour;           /* flat: RGB565 */
+    uint8_t uv_error_log2;     /* textured: u and v are within 2^-uv_error_log2 texels; 1..5 */
     const el_texture *texture; /* textured */
 } el_surface;
 

@@ -1,0 +1,164 @@
+#include "raster/texture_walk.h"
+
+#include "base/divide.h"
+#include "base/fixed.h"
+
+enum {
+    LENGTHS = 13,
+    STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
+    NEVER_Q8 = 1 << 20,
+    /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 2^-16 texel and steps are cut off
+     * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
+    ROUNDING_RESERVE_Q8 = 24
+};
+
+static const uint8_t lengths[LENGTHS] = {4, 5, 6, 7, 8, 9, 11, 13, 16, 22, 32, 45, EL_MAX_PIECE};
+
+/* 2/3 log2 of each length, rounded up, and log2(1 + i/128), rounded down, in Q8. */
+static const uint16_t length_q8[LENGTHS] = {342, 397, 442, 480, 512, 542, 591, 632, 683, 762, 854, 938, 1024};
+
+static const uint16_t log2_q8[129] = {
+    0,   2,   5,   8,   11,  14,  16,  19,  22,  25,  27,  30,  33,  35,  38,  40,  43,  46,  48,  51,  53,  56,
+    58,  61,  63,  65,  68,  70,  73,  75,  77,  80,  82,  84,  87,  89,  91,  93,  96,  98,  100, 102, 104, 106,
+    109, 111, 113, 115, 117, 119, 121, 123, 125, 127, 129, 132, 134, 136, 138, 140, 141, 143, 145, 147, 149, 151,
+    153, 155, 157, 159, 161, 162, 164, 166, 168, 170, 172, 173, 175, 177, 179, 181, 182, 184, 186, 188, 189, 191,
+    193, 194, 196, 198, 200, 201, 203, 205, 206, 208, 209, 211, 213, 214, 216, 218, 219, 221, 222, 224, 225, 227,
+    229, 230, 232, 233, 235, 236, 238, 239, 241, 242, 244, 245, 247, 248, 250, 251, 253, 254, 256};
+
+/* log2 x rounded down; x >= 1. */
+static int32_t log2_floor_q8(uint32_t x)
+{
+    const int leading = __builtin_clz(x);
+    return (31 - leading) * 256 + log2_q8[((x << leading) >> 24) & 127U];
+}
+
+/* log2 x rounded up; x >= 1. */
+static int32_t log2_ceil_q8(uint64_t x)
+{
+    const int leading = __builtin_clzll(x);
+    return (63 - leading) * 256 + log2_q8[(((x << leading) >> 56) & 127U) + 1U] + 1;
+}
+
+/* base + (numerator << shift) / w, Q16 texels, rounded down. |numerator << shift| < 2^59; at covered pixels the quotient
+ * lies within the corners' range. */
+static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, const el_divisor *w)
+{
+    const int64_t numerator = (int64_t)(int32_t)(uint32_t)(numerator_q32 >> 32) * ((int64_t)1 << shift);
+    return (int32_t)((uint32_t)base_q16 + (uint32_t)el_divide_floor_i64(numerator, w));
+}
+
+/* 1/w at a value of its plane; at covered pixels it lies between the corners', which are 1 at least. */
+static uint32_t whole(uint64_t w_q32)
+{
+    const uint32_t w = (uint32_t)(w_q32 >> 32);
+    return w == 0 ? 1U : w;
+}
+
+static void exact(const el_texture_walk *walk, const el_triangle *triangle, uint32_t pixels, int32_t *u_q16,
+                  int32_t *v_q16)
+{
+    const el_plane *const planes = triangle->planes;
+    const el_divisor w = el_divisor_make(whole(walk->w + planes[EL_PLANE_W].dx * pixels));
+    *u_q16 = knot(walk->u + planes[EL_PLANE_U].dx * pixels, triangle->u_shift, triangle->u_base_q16, &w);
+    *v_q16 = knot(walk->v + planes[EL_PLANE_V].dx * pixels, triangle->v_shift, triangle->v_base_q16, &w);
+}
+
+/* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
+ * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the fraction moves J by less than
+ * W + |U|. */
+static int32_t curvature_q8(uint64_t value_q32, const el_plane *plane, int32_t w, int32_t w_step_q4, uint8_t shift)
+{
+    const int32_t value = (int32_t)(uint32_t)(value_q32 >> 32);
+    const int32_t step_q4 = (int32_t)((int64_t)plane->dx >> 28);
+    const int64_t j_q4 = (int64_t)step_q4 * w - (int64_t)value * w_step_q4;
+    const uint64_t bound_q4 = el_abs_u64(j_q4) + (uint32_t)w + el_abs_u64(value);
+    return log2_ceil_q8(bound_q4) + shift * 256;
+}
+
+static bool is_steep(const el_plane *plane)
+{
+    return el_abs_u64((int64_t)plane->dx) >= 1ULL << (32 + STEEP_LOG2);
+}
+
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x)
+{
+    const el_plane *const planes = triangle->planes;
+    const uint64_t column = (uint64_t)(int64_t)x;
+    const uint64_t half = 1ULL << 31;
+    walk->w = planes[EL_PLANE_W].row + planes[EL_PLANE_W].dx * column + half;
+    walk->u = planes[EL_PLANE_U].row + planes[EL_PLANE_U].dx * column + half;
+    walk->v = planes[EL_PLANE_V].row + planes[EL_PLANE_V].dx * column + half;
+    walk->length = LENGTHS - 1;
+    exact(walk, triangle, 0, &walk->u_q16, &walk->v_q16);
+    walk->next_u_q16 = walk->u_q16;
+    walk->next_v_q16 = walk->v_q16;
+    walk->u_step_q16 = 0;
+    walk->v_step_q16 = 0;
+
+    if (planes[EL_PLANE_W].dx == 0) {
+        walk->limit_q8 = -NEVER_Q8;
+    } else if (is_steep(&planes[EL_PLANE_W]) || is_steep(&planes[EL_PLANE_U]) || is_steep(&planes[EL_PLANE_V])) {
+        walk->limit_q8 = NEVER_Q8;
+    } else {
+        const int32_t w = (int32_t)whole(walk->w);
+        const int32_t w_step_q4 = (int32_t)((int64_t)planes[EL_PLANE_W].dx >> 28);
+        const int32_t curvature =
+            el_max_i32(curvature_q8(walk->u, &planes[EL_PLANE_U], w, w_step_q4, triangle->u_shift),
+                       curvature_q8(walk->v, &planes[EL_PLANE_V], w, w_step_q4, triangle->v_shift));
+        const int32_t w_step = log2_ceil_q8(el_abs_u64(w_step_q4) + 1U);
+        /* 4 bits of fraction twice, 16 bits of u and v. */
+        const int32_t product_q8 = curvature + w_step - (4 + 4 + 16) * 256;
+        const int32_t error_q8 = -(int32_t)triangle->surface.uv_error_log2 * 256;
+        /* Rounded up; the constant keeps the dividend positive, so that the division does. */
+        const int32_t three = product_q8 - 2 * 256 - error_q8 + ROUNDING_RESERVE_Q8;
+        walk->limit_q8 = (three + 3 * NEVER_Q8 + 2) / 3 - NEVER_Q8;
+    }
+}
+
+int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left)
+{
+    if (left == 1) {
+        return 1;
+    }
+    const uint64_t w_step = triangle->planes[EL_PLANE_W].dx;
+    const bool falls = (int64_t)w_step < 0;
+    /* The last knot is on the last pixel: beyond it 1/w may be anything. */
+    const int32_t most = left - 1;
+    const int32_t w_here_q8 = log2_floor_q8(whole(walk->w));
+    int32_t i = walk->length;
+    if (!falls) {
+        /* W grows, so pieces do. */
+        while (i < LENGTHS - 1 && w_here_q8 >= walk->limit_q8 + length_q8[i + 1]) {
+            i++;
+        }
+    }
+    int32_t length = 1;
+    for (; i >= 0; i--) {
+        /* Shorter lengths than what is left of the span need not be tried: a piece is no longer than that. */
+        if (i > 0 && lengths[i - 1] >= most) {
+            continue;
+        }
+        const int32_t pixels = el_min_i32(lengths[i], most);
+        const int32_t least_q8 = falls ? log2_floor_q8(whole(walk->w + w_step * (uint64_t)(int64_t)pixels)) : w_here_q8;
+        if (least_q8 >= walk->limit_q8 + length_q8[i]) {
+            length = pixels;
+            break;
+        }
+    }
+    walk->length = (uint8_t)(i < 0 ? 0 : i);
+
+    exact(walk, triangle, (uint32_t)length, &walk->next_u_q16, &walk->next_v_q16);
+    walk->u_step_q16 = (walk->next_u_q16 - walk->u_q16) / length;
+    walk->v_step_q16 = (walk->next_v_q16 - walk->v_q16) / length;
+    return length;
+}
+
+void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length)
+{
+    const uint64_t pixels = (uint64_t)(int64_t)length;
+    walk->w += triangle->planes[EL_PLANE_W].dx * pixels;
+    walk->u += triangle->planes[EL_PLANE_U].dx * pixels;
+    walk->v += triangle->planes[EL_PLANE_V].dx * pixels;
+    walk->u_q16 = walk->next_u_q16;
+    walk->v_q16 = walk->next_v_q16;
+}

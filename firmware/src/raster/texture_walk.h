@@ -1,0 +1,44 @@
+/* Perspective-correct texture coordinates along a span, within an error that the user chooses.
+ *
+ * u = U / W with U and W linear along the row. A span is cut into pieces; at the knots between them u is exact, inside
+ * a piece it is linear. How long a piece may be follows from the error: the derivation is in firmware/DESIGN.md,
+ * "Textures". In short, along a row J = U' W - U W' is constant and u'' = -2 J W' / W^3, so over a piece of n pixels
+ *
+ *     |error| <= max|u''| n^2 / 8 = n^2 |J W'| / (4 Wmin^3)
+ *
+ * where Wmin is W at one of the piece's ends. In base-2 logarithms that is one comparison per piece:
+ *
+ *     log2 Wmin >= (log2 |J W'| + 2 log2 n - 2 - log2 error) / 3
+ *
+ * Logarithms are taken to 1/256, rounded so that the test errs on the short side. */
+#ifndef EL_RASTER_TEXTURE_WALK_H
+#define EL_RASTER_TEXTURE_WALK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "raster/triangle.h"
+
+/* The longest piece, in pixels. */
+enum { EL_MAX_PIECE = 64 };
+
+typedef struct el_texture_walk {
+    uint64_t w, u, v;     /* planes' values at the piece's first pixel, Q32 */
+    int32_t u_q16, v_q16; /* texture coordinates there */
+    int32_t u_step_q16, v_step_q16;
+    int32_t next_u_q16, next_v_q16; /* at the next knot */
+    int32_t limit_q8;               /* log2 W must be this much and 2/3 log2 n */
+    uint8_t length;                 /* index of the length that the last piece had */
+} el_texture_walk;
+
+/* Begins at pixel x of the triangle's current row. */
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x);
+
+/* Makes the next piece of a span that has `left` pixels to go, left >= 1, and returns its length in pixels, 1 to
+ * EL_MAX_PIECE: u_q16 and v_q16 belong to its first pixel, the steps lead to the others. */
+int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left);
+
+/* Moves on to the knot after the piece of `length` pixels. */
+void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length);
+
+#endif

@@ -1,0 +1,7 @@
+"""`python -m edgeline` is the command `edgeline`."""
+
+import sys
+
+from edgeline.cli import main
+
+sys.exit(main())

@@ -1,0 +1,146 @@
+"""Meshes and textures as C headers: const arrays in the layout of `geometry/mesh.h`, as compact as a compiler allows.
+
+The text depends on nothing but the data and the words given: no dates, no folders, so that a regenerated header can be
+compared byte for byte.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from edgeline.convert.mesh import Mesh, Texture
+from edgeline.errors import EdgelineError
+
+COLUMNS = 120
+
+RESERVED = re.compile(
+    "auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|main|register"
+    "|restrict|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while"
+)
+"""Words that C does not leave to a program."""
+
+
+@dataclass(frozen=True)
+class NamedMesh:
+    """One mesh of a header. `offset_q16` is where its origin lies in the world, in Q16.16 world units, if anywhere."""
+
+    name: str
+    mesh: Mesh
+    texture: Texture | None = None
+    offset_q16: tuple[int, int, int] | None = None
+
+
+def check_name(name: str) -> str:
+    """`name`, when it can be a C identifier. Raises EdgelineError otherwise."""
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) or RESERVED.fullmatch(name):
+        raise EdgelineError(f"--name {name!r} cannot name a C object: letters, digits and _, a letter first")
+    return name
+
+
+def name_from(stem: str) -> str:
+    """A C identifier out of a file's name: `spot-mesh.2` becomes `spot_mesh_2`, `3d` becomes `mesh_3d`."""
+    name = re.sub(r"[^A-Za-z0-9]+", "_", stem).strip("_").lower()
+    if not name or not name[0].isalpha() or RESERVED.fullmatch(name):
+        name = f"mesh_{name}".rstrip("_")
+    return name
+
+
+def wrap(items: Iterable[str]) -> list[str]:
+    """`items` in lines of at most COLUMNS characters, each item followed by a comma."""
+    lines: list[str] = []
+    line = ""
+    for item in items:
+        if line and len(line) + len(item) + 1 > COLUMNS:
+            lines.append(line)
+            line = ""
+        line += f"{item},"
+    return [*lines, line]
+
+
+def rows_of(array: npt.NDArray[np.generic]) -> Iterable[str]:
+    """One initialiser `{a,b,c}` per row."""
+    return ("{" + ",".join(map(str, row)) + "}" for row in array.tolist())
+
+
+def array_lines(c_type: str, name: str, array: npt.NDArray[np.generic]) -> list[str]:
+    rows, columns = array.shape
+    return [f"static const {c_type} {name}[{rows}][{columns}] = {{", *wrap(rows_of(array)), "};"]
+
+
+def texture_lines(name: str, texture: Texture) -> list[str]:
+    values = (f"0x{texel:04x}" for texel in texture.texels.reshape(-1).tolist())
+    return [
+        f"static const uint16_t {name}_texels[{texture.texels.size}] = {{",
+        *wrap(values),
+        "};",
+        f"static const el_texture {name}_texture = {{",
+        f"    .texels = {name}_texels,",
+        f"    .width_log2 = {texture.width_log2},",
+        f"    .height_log2 = {texture.height_log2},",
+        "};",
+    ]
+
+
+def mesh_lines(named: NamedMesh) -> list[str]:
+    """The arrays of a mesh, then the mesh, then its texture and offset."""
+    name, mesh = named.name, named.mesh
+    arrays = (
+        ("int16_t", "positions", mesh.positions),
+        ("uint16_t", "triangles", mesh.triangles),
+        ("uint8_t", "colours", mesh.colours),
+        ("uint8_t", "triangle_colours", mesh.triangle_colours),
+        ("int8_t", "normals", mesh.normals),
+        ("int16_t", "uvs", mesh.uvs),
+    )
+    present = [(c_type, member, array) for c_type, member, array in arrays if array is not None]
+    lines: list[str] = []
+    for c_type, member, array in present:
+        lines += array_lines(c_type, f"{name}_{member}", array)
+    lines += [f"static const el_mesh {name} = {{"]
+    lines += [f"    .{member} = {name}_{member}," for _, member, _ in present]
+    lines += [
+        f"    .vertex_count = {len(mesh.positions)},",
+        f"    .triangle_count = {len(mesh.triangles)},",
+        f"    .scale_log2 = {mesh.scale_log2},",
+        f"    .centre = {{{', '.join(map(str, mesh.centre))}}},",
+        f"    .radius = {mesh.radius},",
+        "};",
+    ]
+    if named.texture is not None:
+        lines += texture_lines(name, named.texture)
+    if named.offset_q16 is not None:
+        lines += [f"static const int32_t {name}_offset_q16[3] = {{{', '.join(map(str, named.offset_q16))}}};"]
+    return lines
+
+
+def summary(named: NamedMesh) -> str:
+    """One line with the counts of a mesh."""
+    mesh = named.mesh
+    text = (
+        f"{named.name}: {len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices, "
+        f"unit 2^{mesh.scale_log2}, {mesh.flash_bytes:,} bytes"
+    )
+    if named.texture is not None:
+        height, width = named.texture.texels.shape
+        text += f"; texture {width}x{height}, {named.texture.texels.nbytes:,} bytes"
+    return text + "."
+
+
+def c_header(name: str, about: Sequence[str], meshes: Sequence[NamedMesh]) -> str:
+    """The text of a header that includes only `edgeline.h`.
+
+    `name` becomes the include guard, `about` (what it shows, what made it) the opening comment, before the counts.
+    """
+    guard = f"MESH_{name.upper()}_H"
+    comment = [*about, *map(summary, meshes)]
+    lines = ["/* " + "\n * ".join(text.replace("*/", "* /") for text in comment) + " */"]
+    lines += [f"#ifndef {guard}", f"#define {guard}", "", '#include "edgeline.h"', "", "/* clang-format off */"]
+    for named in meshes:
+        lines += mesh_lines(named)
+    lines += ["/* clang-format on */", "", "#endif", ""]
+    return "\n".join(lines)

@@ -1,0 +1,349 @@
+"""The bodies of the packets, both ways: one dataclass per packet of WIRE.md, version 1.0.
+
+`decode` checks every rule that a body can break by itself and raises WireError; what depends on the session (the order
+of bands, digests, credits) is checked in `session`. All numbers are little-endian.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from enum import IntEnum, IntFlag
+from typing import ClassVar
+
+from edgeline.errors import DeviceError, WireError
+from edgeline.framing import Packet
+
+MAJOR = 1
+MAGIC = b"EDGL"
+RGB565 = 1
+MAX_SIDE = 2040
+
+COUNTERS = (
+    "passes",
+    "draws",
+    "draws_culled",
+    "vertices",
+    "triangles",
+    "triangles_outside",
+    "triangles_clipped",
+    "triangles_backface",
+    "triangles_empty",
+    "triangles_other",
+    "triangles_listed",
+    "setups",
+    "rows",
+    "spans",
+    "pixels",
+    "bands",
+    "flushes",
+    "memory_peak",
+)
+"""The names of FRAME_END's work counters, in the order of firmware/src/base/stats.h."""
+
+
+class PacketType(IntEnum):
+    HELLO = 0x01
+    START = 0x02
+    BAND = 0x03
+    FRAME_END = 0x04
+    ACK = 0x05
+    KEY = 0x06
+    PING = 0x07
+    STOP = 0x08
+    LOG = 0x09
+
+
+class Capability(IntFlag):
+    """Bits 0..2 of HELLO's capabilities and of START's codecs; bit 8 is HELLO's alone."""
+
+    RAW = 1
+    RUNS = 2
+    SPLIT = 4
+    SKIPS_LINES = 256
+
+
+class Codec(IntEnum):
+    RAW = 0
+    RUNS = 1
+
+
+DECODABLE = Capability.RAW | Capability.RUNS
+
+
+@dataclass(frozen=True)
+class Hello:
+    """What a device is. `width` in pixels and `height` in lines, 1..2040; `boot_id` differs after each start."""
+
+    TYPE: ClassVar = PacketType.HELLO
+    _LAYOUT: ClassVar = struct.Struct("<4sBBHHBBHHIII")
+
+    width: int
+    height: int
+    capabilities: Capability
+    boot_id: int
+    target: str
+    firmware: str
+    minor: int = 0
+    skip_segment: int = 0
+    largest_packet: int = 1024
+    highest_baud: int = 0
+
+    def encode(self) -> bytes:
+        fixed = self._LAYOUT.pack(
+            MAGIC,
+            MAJOR,
+            self.minor,
+            self.width,
+            self.height,
+            RGB565,
+            0,
+            self.skip_segment,
+            self.largest_packet,
+            self.capabilities,
+            self.highest_baud,
+            self.boot_id,
+        )
+        return fixed + _pack_string(self.target) + _pack_string(self.firmware)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Hello:
+        """Raises WireError on a broken body, DeviceError on a sound one that this version of the host cannot serve."""
+        if len(body) < 6 or body[:4] != MAGIC:
+            raise WireError("a HELLO without the magic EDGL")
+        if body[4] != MAJOR:
+            raise DeviceError(
+                f"the device speaks version {body[4]}.{body[5]} of the wire, this host {MAJOR}.x: "
+                f"update the {'host' if body[4] > MAJOR else 'firmware'}"
+            )
+        _need(body, cls._LAYOUT.size, "HELLO")
+        (_, _, minor, width, height, pixels, _, segment, largest, capabilities, baud, boot_id) = (
+            cls._LAYOUT.unpack_from(body)
+        )
+        if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+            raise WireError(f"a HELLO with a picture of {width}x{height}")
+        target, offset = _unpack_string(body, cls._LAYOUT.size)
+        firmware, _ = _unpack_string(body, offset)
+        if pixels != RGB565:
+            raise DeviceError(f"{target} sends pixel format {pixels}, this host knows RGB565 alone: update the host")
+        if not capabilities & DECODABLE:
+            raise DeviceError(f"{target} offers neither raw nor run-length bands: update the host")
+        known = Capability(capabilities & (DECODABLE | Capability.SPLIT | Capability.SKIPS_LINES))
+        return cls(width, height, known, boot_id, target, firmware, minor, segment, largest, baud)
+
+
+@dataclass(frozen=True)
+class Start:
+    """Begin, with `credits` frames at once and then one for each credit that an ACK brings; `fps` 0: no limit."""
+
+    TYPE: ClassVar = PacketType.START
+    _LAYOUT: ClassVar = struct.Struct("<BBHH")
+
+    credits: int
+    fps: int = 0
+    codecs: Capability = DECODABLE
+    mode: int = 0
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.mode, self.credits, self.fps, self.codecs)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Start:
+        _need(body, cls._LAYOUT.size, "START")
+        mode, count, fps, codecs = cls._LAYOUT.unpack_from(body)
+        return cls(count, fps, Capability(codecs & (DECODABLE | Capability.SPLIT)), mode)
+
+
+@dataclass(frozen=True)
+class Band:
+    """Lines y0 .. y0 + lines - 1 of `frame`, still encoded: `tokens` u8, then `literals`, RGB565 u16."""
+
+    TYPE: ClassVar = PacketType.BAND
+    _LAYOUT: ClassVar = struct.Struct("<HHBBH")
+
+    frame: int
+    y0: int
+    lines: int
+    codec: Codec
+    tokens: bytes
+    literals: bytes
+
+    def encode(self) -> bytes:
+        fixed = self._LAYOUT.pack(self.frame, self.y0, self.lines, self.codec, len(self.tokens))
+        return fixed + self.tokens + self.literals
+
+    @classmethod
+    def decode(cls, body: bytes) -> Band:
+        _need(body, cls._LAYOUT.size, "BAND")
+        frame, y0, lines, flags, tokens = cls._LAYOUT.unpack_from(body)
+        if lines == 0:
+            raise WireError("a BAND without lines")
+        if flags not in (Codec.RAW, Codec.RUNS):
+            raise WireError(f"a BAND with the unknown codec byte 0x{flags:02x}")
+        first_literal = cls._LAYOUT.size + tokens
+        _need(body, first_literal, "BAND")
+        return cls(frame, y0, lines, Codec(flags), body[cls._LAYOUT.size : first_literal], body[first_literal:])
+
+
+@dataclass(frozen=True)
+class FrameEnd:
+    """A frame's proof and its cost. Times in microseconds, `time_us` modulo 2^32; `counters` in COUNTERS' order."""
+
+    TYPE: ClassVar = PacketType.FRAME_END
+    _LAYOUT: ClassVar = struct.Struct("<HHIIIIHHIB")
+
+    frame: int
+    bands: int
+    time_us: int
+    render_us: int
+    encode_us: int
+    wire_bytes: int
+    dropped: int
+    digest: int
+    counters: tuple[int, ...] = ()
+
+    def encode(self) -> bytes:
+        fixed = self._LAYOUT.pack(
+            self.frame,
+            self.bands,
+            self.time_us,
+            self.render_us,
+            self.encode_us,
+            self.wire_bytes,
+            self.dropped,
+            0,
+            self.digest,
+            len(self.counters),
+        )
+        return fixed + struct.pack(f"<{len(self.counters)}I", *self.counters)
+
+    @classmethod
+    def decode(cls, body: bytes) -> FrameEnd:
+        _need(body, cls._LAYOUT.size, "FRAME_END")
+        (frame, bands, time_us, render, encode, wire, dropped, _, digest, count) = cls._LAYOUT.unpack_from(body)
+        _need(body, cls._LAYOUT.size + 4 * count, "FRAME_END")
+        counters = struct.unpack_from(f"<{count}I", body, cls._LAYOUT.size)
+        return cls(frame, bands, time_us, render, encode, wire, dropped, digest, counters)
+
+    def named_counters(self) -> dict[str, int]:
+        """The work counters by name; those of a newer firmware, which this host has no name for, as `counter_N`."""
+        names = [*COUNTERS, *(f"counter_{i}" for i in range(len(COUNTERS), len(self.counters)))]
+        return dict(zip(names, self.counters, strict=False))
+
+
+@dataclass(frozen=True)
+class Ack:
+    """Frame `frame` has been dealt with: `credits` more may come."""
+
+    TYPE: ClassVar = PacketType.ACK
+    _LAYOUT: ClassVar = struct.Struct("<HB")
+
+    frame: int
+    credits: int
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.frame, self.credits)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Ack:
+        _need(body, cls._LAYOUT.size, "ACK")
+        return cls(*cls._LAYOUT.unpack_from(body))
+
+
+@dataclass(frozen=True)
+class Key:
+    """Send lines y0 .. y0 + lines - 1 afresh with the next frame."""
+
+    TYPE: ClassVar = PacketType.KEY
+    _LAYOUT: ClassVar = struct.Struct("<HH")
+
+    y0: int
+    lines: int
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.y0, self.lines)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Key:
+        _need(body, cls._LAYOUT.size, "KEY")
+        return cls(*cls._LAYOUT.unpack_from(body))
+
+
+@dataclass(frozen=True)
+class Ping:
+    TYPE: ClassVar = PacketType.PING
+
+    def encode(self) -> bytes:
+        return b""
+
+    @classmethod
+    def decode(cls, _body: bytes) -> Ping:
+        return cls()
+
+
+@dataclass(frozen=True)
+class Stop:
+    TYPE: ClassVar = PacketType.STOP
+
+    def encode(self) -> bytes:
+        return b""
+
+    @classmethod
+    def decode(cls, _body: bytes) -> Stop:
+        return cls()
+
+
+@dataclass(frozen=True)
+class Log:
+    """A line for the user's log."""
+
+    TYPE: ClassVar = PacketType.LOG
+
+    text: str
+
+    def encode(self) -> bytes:
+        return self.text.encode()
+
+    @classmethod
+    def decode(cls, body: bytes) -> Log:
+        return cls(_utf8(body, "LOG"))
+
+
+Body = Hello | Start | Band | FrameEnd | Ack | Key | Ping | Stop | Log
+
+_BODIES: dict[int, type[Body]] = {body.TYPE: body for body in (Hello, Start, Band, FrameEnd, Ack, Key, Ping, Stop, Log)}
+
+
+def pack(body: Body, seq: int) -> Packet:
+    """`body` as the packet with the number `seq`, 0..255."""
+    return Packet(body.TYPE, seq, body.encode())
+
+
+def unpack(packet: Packet) -> Body | None:
+    """The packet's body, or None if its type is unknown here (a newer minor version's). Raises as `decode` does."""
+    body = _BODIES.get(packet.type)
+    return None if body is None else body.decode(packet.body)
+
+
+def _need(body: bytes, size: int, name: str) -> None:
+    if len(body) < size:
+        raise WireError(f"a {name} of {len(body)} bytes where it needs {size}")
+
+
+def _utf8(raw: bytes, name: str) -> str:
+    try:
+        return raw.decode()
+    except UnicodeDecodeError:
+        raise WireError(f"a {name} whose text is not UTF-8") from None
+
+
+def _pack_string(text: str) -> bytes:
+    raw = text.encode()
+    return bytes((len(raw),)) + raw
+
+
+def _unpack_string(body: bytes, offset: int) -> tuple[str, int]:
+    _need(body, offset + 1, "HELLO")
+    end = offset + 1 + body[offset]
+    _need(body, end, "HELLO")
+    return _utf8(body[offset + 1 : end], "HELLO"), end

@@ -1,0 +1,126 @@
+# shellcheck shell=bash
+# Shows of each gate that it can fail, and fails for its own reason. A small tree that all gates accept is made, then
+# one fault at a time is put into a copy of it: the gate must end with status 1 and say the words that belong to the
+# fault. One line each: "found GATE: FAULT", "missed ...", "skipped ...". Status 1 when one was missed. Run it with `bash tests/checks/seeded_faults.sh`; what is
+# executable in this folder is a gate.
+set -uo pipefail
+# shellcheck source=tests/lib.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../lib.sh"
+checks=$root/tests/checks
+work=$build/checks/seeded_faults
+rm -rf "$work"
+mkdir -p "$work"
+missed=0
+
+# verdict GATE TREE STATUS WORDS NAME: runs the gate; the status and the words must be as given.
+verdict() {
+    local status=0 log=$2.log
+    "$checks/$1" "$2" >"$log" 2>&1 || status=$?
+    if [ "$status" -eq 77 ]; then
+        echo "skipped $1: $5"
+    elif [ "$status" -eq "$3" ] && { [ -z "$4" ] || grep -qF -e "$4" "$log"; }; then
+        echo "found $1: $5"
+    else
+        echo "missed $1: $5 (status $status, wanted $3 and '$4')"
+        missed=1
+    fi
+}
+
+# --- the tree that holds ----------------------------------------------------------------------------------------------
+
+sound=$work/sound
+mkdir -p "$sound"/firmware/src/{base,raster} "$sound"/build/{clang,sim/firmware} "$sound"/host/edgeline "$sound/tests"
+cp "$root/.clang-format" "$root/.clang-tidy" "$sound/"
+echo /build/ >"$sound/.gitignore"
+cp "$root/host/pyproject.toml" "$sound/host/"
+printf '#!/bin/sh\necho "hello"\n' >"$sound/tests/run"
+printf '"""Nothing."""\n\nANSWER: int = 42\n' >"$sound/host/edgeline/__init__.py"
+cat >"$sound/firmware/src/base/low.h" <<'C'
+#pragma once
+#include <stdint.h>
+uint32_t el_low(uint32_t x);
+C
+cat >"$sound/firmware/src/base/low.c" <<'C'
+#include "base/low.h"
+
+/* Neither float nor malloc: comments may say so. */
+uint32_t el_low(uint32_t x)
+{
+    return x / 3u;
+}
+C
+cat >"$sound/firmware/src/raster/high.h" <<'C'
+#pragma once
+#include "base/low.h"
+C
+echo '#include "base/low.h"' >"$sound/firmware/src/edgeline.h"
+cat >"$sound/README.md" <<'MD'
+```c
+#include "edgeline.h"
+int main(void) { return (int)el_low(0); }
+```
+MD
+git -C "$sound" init -q
+cc -std=c11 -I "$sound/firmware/src" -c "$sound/firmware/src/base/low.c" -o "$sound/build/low.o"
+ar rc "$sound/build/sim/firmware/libedgeline_base.a" "$sound/build/low.o"
+commands() {
+    printf '[{"directory": "%s", "file": "%s", "command": "clang -std=c11 -I %s -c %s"}]\n' \
+        "$1" "$1/firmware/src/base/low.c" "$1/firmware/src" "$1/firmware/src/base/low.c" >"$1/build/clang/compile_commands.json"
+}
+commands "$sound"
+for gate in "$checks"/*; do
+    [ ! -x "$gate" ] || verdict "${gate##*/}" "$sound" 0 "" "a sound tree passes"
+done
+
+# --- one fault at a time ----------------------------------------------------------------------------------------------
+
+number=0
+# fault GATE NAME WORDS FILE: standard input is added to FILE of a fresh copy of the sound tree.
+fault() {
+    number=$((number + 1))
+    local copy=$work/$number
+    cp -a "$sound" "$copy"
+    mkdir -p "$(dirname "$copy/$4")"
+    cat >>"$copy/$4"
+    commands "$copy"
+    verdict "$1" "$copy" 1 "$3" "$2"
+}
+
+low=firmware/src/base/low.c
+fault words "a float" "low.c:8: 'float'" $low <<<'static float el_f;'
+fault words "a heap" "low.c:8: 'malloc'" $low <<<'void *malloc(int);'
+fault words "a libc header" "<stdio.h> is not one of" $low <<<'#include <stdio.h>'
+fault words "a path upwards" "leaves its layer" $low <<<'#include "../raster/high.h"'
+fault arm_objects "soft floating point" "calls __aeabi_f" $low <<<'int el_f(int x) { return (int)(x * 0.1f); }'
+fault arm_objects "a libc function" "calls puts" $low <<<'int puts(const char *); void el_f(void) { puts(""); }'
+fault arm_objects "a variable" "variable el_state" $low <<<'int el_state; int el_f(void) { return el_state++; }'
+fault arm_objects "a local static" "variable count" $low \
+    <<<'int el_f(void) { static int count = 1; return count++; }'
+fault layers "an upward include" "low.c does not compile" $low <<<'#include "raster/high.h"'
+fault layers "a header that leans on its user" "own.h does not compile" firmware/src/base/own.h <<<'uint32_t el_own(void);'
+fault layers "an unknown layer" "no layer that this gate knows" firmware/src/extra/x.h <<<'#pragma once'
+fault c_format "a line out of form" "clang-format-violations" $low <<<'int  el_f ( void );'
+fault c_lint "an assignment in a condition" "low.c:10" $low <<C
+int el_f(int x)
+{
+    if (x = 1)
+        return 0;
+    return x;
+}
+C
+fault python_style "an unused import" "F401" host/edgeline/a.py <<<'import os'
+fault python_style "a line out of form" "1 file would be reformatted" host/edgeline/a.py <<<"A = {  'a':1 }"
+fault python_style "a wrong type" "Incompatible types" host/edgeline/a.py <<<'A: int = "a"'
+# shellcheck disable=SC2016 # the fault is the text itself
+fault shell_style "an unquoted word" "SC2086" tests/run <<<'cat $1'
+: >"$sound/README.md"
+fault readme_program "no program" "no \`\`\`c block" README.md <<<'Words alone.'
+fault readme_program "a program that does not compile" "unused" README.md \
+    <<<$'```c\nint main(void) { int x = 0; return 0; }\n```'
+fault readme_program "a program that does not link" "el_absent" README.md \
+    <<<$'```c\nint el_absent(void);\nint main(void) { return el_absent(); }\n```'
+fault own_paths "a folder of one machine" "a path of one machine" a.txt <<<"see /root""/notes"
+fault own_paths "an address of a registry" "an address of a package registry" a.txt \
+    <<<"https:""//registry.example.org/x.tgz"
+
+exit "$missed"

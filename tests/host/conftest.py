@@ -1,0 +1,90 @@
+"""What several tests share: running the command as users do, the simulator, a display."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+# The same examples every time, and none kept in the tree.
+settings.register_profile("edgeline", derandomize=True, database=None, deadline=None)
+settings.load_profile("edgeline")
+
+HOST = Path(__file__).parents[2] / "host"
+
+Edgeline = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+def environment() -> dict[str, str]:
+    """The environment for `python -m edgeline`, which need not be installed."""
+    kept = {name: value for name, value in os.environ.items() if name != "EDGELINE_PORT"}
+    return {**kept, "PYTHONPATH": str(HOST)}
+
+
+def missing(what: str) -> None:
+    """Skips the test where `what` is not there; in CI it has to be."""
+    if os.environ.get("CI"):
+        pytest.fail(f"{what}: has to be there in CI")
+    pytest.skip(what)
+
+
+@pytest.fixture
+def edgeline(tmp_path: Path) -> Edgeline:
+    """Runs `edgeline ARGUMENTS` in the test's folder and gives its status and output."""
+
+    def run(
+        *arguments: str, timeout: float = 60, env: dict[str, str] | None = None
+    ) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-m", "edgeline", *arguments],
+            cwd=tmp_path,
+            env={**environment(), **(env or {})},
+            capture_output=True,
+            text=True,
+            timeout=timeout,
+            check=False,
+        )
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def simulator() -> str:
+    """The path of edgeline-sim, from the environment variable EDGELINE_SIM."""
+    path = os.environ.get("EDGELINE_SIM", "")
+    if not path:
+        missing("EDGELINE_SIM does not name the simulator's binary")
+    assert Path(path).is_file(), f"EDGELINE_SIM={path}: no such file"
+    return str(Path(path).resolve())
+
+
+@pytest.fixture(scope="session")
+def display() -> Iterator[str]:
+    """An X display: the one that is there, or an Xvfb for the tests alone."""
+    if os.environ.get("DISPLAY"):
+        yield os.environ["DISPLAY"]
+        return
+    xvfb = shutil.which("Xvfb")
+    if xvfb is None:
+        missing("neither a display nor Xvfb")
+    assert xvfb is not None
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        [xvfb, "-displayfd", str(write), "-screen", "0", "1366x900x24", "-nolisten", "tcp"],
+        pass_fds=[write],
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    os.environ["DISPLAY"] = f":{number}"
+    yield f":{number}"
+    del os.environ["DISPLAY"]
+    server.terminate()
+    server.wait(10)

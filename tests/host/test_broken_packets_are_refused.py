@@ -1,0 +1,136 @@
+"""The packets' bodies: bytes laid out by hand from WIRE.md's tables, and every rule broken once."""
+
+from __future__ import annotations
+
+import re
+import struct
+from pathlib import Path
+
+import pytest
+
+from edgeline import protocol
+from edgeline.errors import DeviceError, WireError
+from edgeline.framing import Packet
+from edgeline.protocol import Ack, Band, Body, Capability, Codec, FrameEnd, Hello, Key, Log, Ping, Start, Stop
+
+HELLO_BYTES = (
+    bytes.fromhex("4544474c 01 00 4001 f000 01 00 0000 e803 03010000 00c20100 cdab3412".replace(" ", ""))
+    + b"\x04Pico\x09edge 0.1b"
+)
+HELLO = Hello(
+    width=320,
+    height=240,
+    capabilities=Capability.RAW | Capability.RUNS | Capability.SKIPS_LINES,
+    boot_id=0x1234ABCD,
+    target="Pico",
+    firmware="edge 0.1b",
+    largest_packet=1000,
+    highest_baud=115200,
+)
+FRAME_END_BYTES = struct.pack("<HHIIIIHHIB2I", 65535, 30, 1, 2, 3, 4, 5, 0, 0xDEADBEEF, 2, 7, 8)
+FRAME_END = FrameEnd(65535, 30, 1, 2, 3, 4, 5, 0xDEADBEEF, (7, 8))
+
+BODIES: list[tuple[Body, bytes]] = [
+    (HELLO, HELLO_BYTES),
+    (Start(2, 25), bytes.fromhex("000219000300")),
+    (
+        Band(1, 8, 2, Codec.RUNS, b"\x82\x82", b"\x34\x12\x00\xf8"),
+        bytes.fromhex("0100080002010200") + b"\x82\x824\x12\x00\xf8",
+    ),
+    (FRAME_END, FRAME_END_BYTES),
+    (Ack(513, 1), bytes.fromhex("010201")),
+    (Key(0, 240), bytes.fromhex("0000f000")),
+    (Ping(), b""),
+    (Stop(), b""),
+    (Log("größer"), "größer".encode()),
+]
+NAMES = [type(body).__name__ for body, _ in BODIES]
+
+
+@pytest.mark.parametrize(("body", "data"), BODIES, ids=NAMES)
+def test_bodies_are_these_bytes(body: Body, data: bytes) -> None:
+    assert body.encode() == data
+    assert protocol.unpack(protocol.pack(body, 9)) == body
+
+
+@pytest.mark.parametrize(("body", "data"), [pair for pair in BODIES if not isinstance(pair[0], Log | Band)])
+def test_longer_bodies_of_a_later_version_are_read(body: Body, data: bytes) -> None:
+    assert type(body).decode(data + b"later members") == body
+
+
+@pytest.mark.parametrize(
+    ("body", "data"), [pair for pair in BODIES if not isinstance(pair[0], Log | Band | Ping | Stop)]
+)
+def test_shorter_bodies_are_damage(body: Body, data: bytes) -> None:
+    for size in range(len(data)):
+        with pytest.raises(WireError):
+            type(body).decode(data[:size])
+
+
+def test_a_band_needs_its_head_and_its_tokens() -> None:
+    data = BODIES[2][1]
+    for size in range(10):
+        with pytest.raises(WireError):
+            Band.decode(data[:size])
+
+
+def patched(at: int, value: bytes) -> bytes:
+    return HELLO_BYTES[:at] + value + HELLO_BYTES[at + len(value) :]
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (patched(0, b"edgl"), "magic"),
+        (patched(6, b"\0\0"), "0x240"),
+        (patched(6, struct.pack("<H", 2041)), "2041x240"),
+        (patched(8, struct.pack("<H", 0)), "320x0"),
+        (patched(8, struct.pack("<H", 2041)), "320x2041"),
+        (patched(29, b"\xff"), "UTF-8"),
+        (patched(28, b"\xff"), "needs"),
+    ],
+)
+def test_hellos_that_break_a_rule_are_damage(data: bytes, message: str) -> None:
+    with pytest.raises(WireError, match=message):
+        Hello.decode(data)
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (patched(4, b"\x02"), r"version 2\.0 .* update the host"),
+        (b"EDGL\x00\x09", r"version 0\.9 .* update the firmware"),
+        (patched(10, b"\x02"), "pixel format 2"),
+        (patched(16, struct.pack("<I", 4 | 256)), "neither raw nor run-length"),
+    ],
+)
+def test_devices_that_cannot_be_served_are_named(data: bytes, message: str) -> None:
+    with pytest.raises(DeviceError, match=message):
+        Hello.decode(data)
+
+
+@pytest.mark.parametrize("flags", [2, 3, 7, 8, 0x80, 0x81])
+def test_unknown_codec_bytes_are_damage(flags: int) -> None:
+    with pytest.raises(WireError, match="codec"):
+        Band.decode(struct.pack("<HHBBH", 0, 0, 1, flags, 0))
+
+
+def test_a_band_without_lines_is_damage() -> None:
+    with pytest.raises(WireError, match="without lines"):
+        Band.decode(struct.pack("<HHBBH", 0, 0, 0, 0, 0))
+
+
+def test_unknown_types_are_ignored() -> None:
+    assert protocol.unpack(Packet(0x0A, 0, b"reserved")) is None
+
+
+def test_counters_have_the_names_and_the_order_of_stats_h() -> None:
+    header = Path(__file__).parents[2] / "firmware/src/base/stats.h"
+    names = re.findall(r"^\s+uint32_t (\w+);", header.read_text(encoding="utf-8"), re.MULTILINE)
+    assert tuple(names) == protocol.COUNTERS
+
+
+def test_counters_of_a_later_firmware_are_kept() -> None:
+    end = FrameEnd(0, 0, 0, 0, 0, 0, 0, 0, tuple(range(len(protocol.COUNTERS) + 1)))
+    assert end.named_counters()[f"counter_{len(protocol.COUNTERS)}"] == len(protocol.COUNTERS)
+    assert FRAME_END.named_counters() == {"passes": 7, "draws": 8}
