@@ -22,10 +22,9 @@ const char *el_machine_message(el_status status)
     case EL_ERROR_MEMORY:
         return "the arena is too small";
     case EL_ERROR_CAMERA:
-        return "the camera is out of range: the eye must differ from what it looks at and not stand straight above it, "
-               "and far must be at least 9/8 of near";
+        return "the camera is out of range: fov 1 to 179 degrees, near at least 1/4096, far at least 9/8 of near";
     case EL_ERROR_RANGE:
-        return "the mesh or the camera is outside +-16384 units";
+        return "the mesh or the camera is outside +-16384 units, or the mesh is too large for so narrow a view";
     case EL_ERROR_MATERIAL:
         return "the mesh has no texture, texture coordinates or normals for this shading";
     }

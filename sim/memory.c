@@ -90,7 +90,7 @@ int el_command_memory(int argc, char **argv)
     row("vertices, beyond what fits the depth band", vertex_bytes > depth ? vertex_bytes - depth : 0);
     row("bins", EL_BIN_BYTES(height, band));
     row("triangles, textured", triangles * EL_TEXTURED_TRIANGLE_BYTES);
-    row("draws", draws * EL_RUN_BYTES + 8);
+    row("draws, and slack", draws * EL_RUN_BYTES + EL_MIN_LIST_BYTES / 2 + 16);
     row("arena (EL_MEMORY_BYTES)", arena);
     row("el_renderer and el_ili9341, this machine's", fixed);
     row("stack", STACK_BYTES);

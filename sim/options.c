@@ -55,7 +55,8 @@ bool el_option_size(const char *option, const char *text, uint16_t *width, uint1
     char *end;
     const long w = strtol(text, &end, 10);
     const char *const second = end + 1;
-    const bool has_both = end != text && *end == 'x' && *second != '\0';
+    /* strtol skips blanks, so each number has to begin with a digit. */
+    const bool has_both = *text >= '0' && *text <= '9' && *end == 'x' && *second >= '0' && *second <= '9';
     const long h = has_both ? strtol(second, &end, 10) : 0;
     if (!has_both || *end != '\0' || w < 1 || w > EL_MAX_WIDTH || h < 1 || h > EL_MAX_HEIGHT) {
         el_report("%s takes WIDTHxHEIGHT, each 1 to %d pixels, not '%s'", option, (int)EL_MAX_WIDTH, text);

@@ -78,9 +78,13 @@ static bool place_camera(el_subject *subject, const el_subject_options *options)
     }
     distance = sqrt(distance);
     double far = distance + radius * 1.1;
-    double near = fmax(distance - radius * 1.1, far / 1000);
+    double near = fmax(fmin(fmax(distance - radius * 1.1, far / 1000), far * 8 / 9), 1.0 / 4096);
     if ((options->near != NULL && !el_option_number("--near", options->near, 1.0 / 4096, max_position, &near)) ||
         (options->far != NULL && !el_option_number("--far", options->far, 1.0 / 4096, max_position, &far))) {
+        return false;
+    }
+    if (far < near * 9 / 8) {
+        el_report("--far %g must be at least 9/8 of --near %g", far, near);
         return false;
     }
 
@@ -102,7 +106,7 @@ static bool place_camera(el_subject *subject, const el_subject_options *options)
     camera->far_q16 = (uint32_t)q16(far);
     const el_status status = el_camera_look_at(camera, eye_q16, target_q16, up_q16);
     if (status != EL_OK) {
-        el_report("%s", el_machine_message(status));
+        el_report("--eye must differ from --look-at, and not stand straight above or below it");
     }
     return status == EL_OK;
 }

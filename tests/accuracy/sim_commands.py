@@ -6,6 +6,7 @@ The formats are those of the simulator's `coverage`, `attributes` and `render` c
 from __future__ import annotations
 
 import json
+import os
 import struct
 import subprocess
 import tempfile
@@ -18,8 +19,8 @@ import numpy.typing as npt
 
 Ints = npt.NDArray[np.int64]
 
-SUBPIXELS = 16
-"""Screen coordinates are integers of 1/16 pixel."""
+SUBPIXELS = int(os.environ.get("EDGELINE_SUBPIXELS", "16"))
+"""Screen coordinates are integers of 1/16 pixel, or of 1/64 or 1/256 where the simulator was built so."""
 
 VERTEX = np.dtype(
     [("x", "<i4"), ("y", "<i4"), ("z", "<u2"), ("w", "<u2"), ("uv", "<i2", (2,)), ("rgb", "u1", (3,)), ("pad", "u1")]

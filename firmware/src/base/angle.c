@@ -1,6 +1,6 @@
 #include "base/angle.h"
 
-/* pi * 2^28, rounded: 2 * pi * angle / 2^32 in Q31 is angle * pi / 2^0, so (angle * PI_Q28) >> 28. */
+/* pi * 2^28, rounded: 2 pi angle / 2^32 in Q31 is pi angle, so (angle * PI_Q28) >> 28. */
 #define PI_Q28 843314857U
 
 static int64_t multiply_q31(int64_t a, int64_t b)

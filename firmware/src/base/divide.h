@@ -53,8 +53,11 @@ static inline int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
     return (int32_t)(el_divide_u64(magnitude, divisor) ^ sign);
 }
 
-/* n / d as Q32, truncated towards zero, modulo 2^64: the 32 low bits of the whole part and 32 bits of fraction.
- * Any n but INT64_MIN. */
-int64_t el_divide_q32(int64_t n, const el_divisor *divisor);
+/* (n + fraction * 2^-32) / d as Q32, truncated towards zero, modulo 2^64: the 32 low bits of the whole part and 32 bits of
+ * fraction. Any n but INT64_MIN. */
+int64_t el_divide_q32(int64_t n, uint32_t fraction, const el_divisor *divisor);
+
+/* The same for a divisor of more than 32 bits, by the processor's or the compiler's own division. 1 <= d < 2^47. */
+int64_t el_divide_wide_q32(int64_t n, uint32_t fraction, uint64_t d);
 
 #endif

@@ -70,6 +70,9 @@ int64_t el_shift_i64(int64_t value, int shift)
         return (value >> shift) + ((value >> (shift - 1)) & 1);
     }
     const uint64_t magnitude = el_abs_u64(value);
+    if (magnitude == 0) {
+        return 0;
+    }
     if (el_bit_length_u64(magnitude) - shift > 63) {
         return value < 0 ? -INT64_MAX : INT64_MAX;
     }

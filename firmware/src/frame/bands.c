@@ -156,6 +156,14 @@ static uint16_t draw_band(el_renderer *renderer, uint16_t band, const el_target 
     return first;
 }
 
+void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
+{
+    const uint32_t use = renderer->fixed_bytes + bytes;
+    if (use > renderer->stats.memory_peak) {
+        renderer->stats.memory_peak = use;
+    }
+}
+
 static void draw_pass(el_renderer *renderer, bool hand_over_bands)
 {
     el_list *const list = &renderer->list;
@@ -168,11 +176,7 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
             hand_over(renderer);
         }
     }
-    const uint32_t arena_outside_list = (uint32_t)renderer->config.memory_bytes - renderer->list_bytes;
-    const uint32_t peak = arena_outside_list + pool.used;
-    if (peak > renderer->stats.memory_peak) {
-        renderer->stats.memory_peak = peak;
-    }
+    el_bands_note_use(renderer, pool.used);
 }
 
 void el_bands_flush(el_renderer *renderer)

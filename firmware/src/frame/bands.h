@@ -4,6 +4,9 @@
 
 #include "frame/renderer.h"
 
+/* Counts a use of `bytes` of the list's memory in the peak. */
+void el_bands_note_use(el_renderer *renderer, uint32_t bytes);
+
 /* Draws every listed triangle into the pass' only band, which stays open, and empties the list. */
 void el_bands_flush(el_renderer *renderer);
 

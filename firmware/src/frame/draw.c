@@ -13,9 +13,6 @@ typedef struct cached_vertex {
     el_screen_vertex vertex;
 } cached_vertex;
 
-_Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(cached_vertex) == 12, "no padding");
-
 typedef struct drawing {
     el_renderer *renderer;
     const el_mesh *mesh;
@@ -58,7 +55,8 @@ static void place_vertices(drawing *d)
         bytes = (depth_bytes + free_bytes / 8) / 8 * 8;
         d->capacity = bytes / (uint32_t)sizeof(cached_vertex);
     }
-    list->end = renderer->list_bytes - (bytes > depth_bytes ? bytes - depth_bytes : 0U);
+    const uint32_t beside = bytes > depth_bytes ? bytes - depth_bytes : 0U;
+    list->end = renderer->list_bytes - beside;
     d->vertices = list_end + depth_bytes - bytes;
 
     if (d->direct) {
@@ -79,7 +77,7 @@ static el_screen_vertex vertex_at(drawing *d, uint16_t index)
     if (d->direct) {
         return ((const el_screen_vertex *)d->vertices)[index];
     }
-    /* NOLINTNEXTLINE(clang-analyzer-core.*): place_vertices leaves room for two vertices at least. */
+    /* NOLINTNEXTLINE(clang-analyzer-core.*): el_draw saw to it that there is room for two vertices at least. */
     cached_vertex *const slot = (cached_vertex *)d->vertices + index % d->capacity;
     if (slot->index != index) {
         slot->index = index;
@@ -93,6 +91,7 @@ static el_screen_vertex vertex_at(drawing *d, uint16_t index)
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;
+    el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);
     if (bands > 1) {
         renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 3 / 4);
         const int32_t lines = renderer->config.band_lines;
@@ -196,13 +195,13 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
 /* Which side of the triangle the camera sees, before it is cut: the light needs it. */
 static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
 {
-    /* Sign of the determinant of the (x, y, w) rows, with 20 bits of each: what is turned by less looks alike lit from
-     * either side. */
+    /* Sign of the determinant of the (x, y, w) rows, with 19 bits of each, so that it stays below 2^60 whatever they
+     * hold. What is turned by less looks alike lit from either side. */
     int64_t c[3][3];
     for (unsigned i = 0; i < 3; i++) {
-        c[i][0] = v[i].x / (1 << 10);
-        c[i][1] = v[i].y / (1 << 10);
-        c[i][2] = v[i].w / (1 << 10);
+        c[i][0] = v[i].x / (1 << 12);
+        c[i][1] = v[i].y / (1 << 12);
+        c[i][2] = v[i].w / (1 << 12);
     }
     const int64_t det = c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) -
                         c[0][1] * (c[1][0] * c[2][2] - c[1][2] * c[2][0]) +
@@ -220,7 +219,8 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     for (unsigned i = 0; i < 3; i++) {
         clip[i] = el_transform_position(&d->transform, d->mesh->positions[vertices[i]]);
     }
-    const bool turned = coloured && material->light != NULL && seen_from_back(&d->state, clip);
+    const bool turned = coloured && material->light != NULL && (material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
+                        seen_from_back(&d->state, clip);
     for (unsigned i = 0; i < 3; i++) {
         corners[i] = (el_clip_corner){.position = clip[i]};
         if (d->perspective_records) {
@@ -277,10 +277,13 @@ static el_status check(const el_mesh *mesh, const el_material *material)
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return EL_ERROR_SIZE;
     }
+    if (mesh->triangle_count > 0 && (mesh->positions == NULL || mesh->triangles == NULL)) {
+        return EL_ERROR_ARGUMENT;
+    }
     const bool textured = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
     if (material->shading > EL_SHADE_OVERDRAW ||
-        (textured && (material->texture == NULL || mesh->uvs == NULL || material->texture->width_log2 > 10 ||
-                      material->texture->height_log2 > 10)) ||
+        (textured && (material->texture == NULL || material->texture->texels == NULL || mesh->uvs == NULL ||
+                      material->texture->width_log2 > 10 || material->texture->height_log2 > 10)) ||
         (material->light != NULL && mesh->normals == NULL)) {
         return EL_ERROR_MATERIAL;
     }
@@ -326,6 +329,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     }
     place_vertices(&d);
     draw_triangles(&d);
+    el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);
     renderer->list.end = renderer->list_bytes;
     return EL_OK;
 }

@@ -5,7 +5,7 @@
 
 el_status el_init(el_renderer *renderer, const el_config *config)
 {
-    if (renderer == NULL || config == NULL || config->memory == NULL || ((uintptr_t)config->memory & 7U) != 0) {
+    if (renderer == NULL || config == NULL || config->memory == NULL) {
         return EL_ERROR_ARGUMENT;
     }
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
@@ -14,7 +14,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     const uint32_t width = config->width;
     const uint32_t lines = config->band_lines;
-    if (config->memory_bytes < EL_MIN_MEMORY_BYTES(width, config->height, lines) || config->memory_bytes > UINT32_MAX) {
+    if (config->memory_bytes < EL_MIN_MEMORY_BYTES(width, config->height, lines) || config->memory_bytes > INT32_MAX) {
         return EL_ERROR_MEMORY;
     }
     *renderer = (el_renderer){.config = *config};
@@ -23,26 +23,23 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     renderer->pass_bands = renderer->band_count;
 
     /* colour band, colour band, bins, list ..., depth band: the vertices of a draw lie at the end of the list's memory
-     * and reach over the depth band while no band is open. */
-    uint8_t *const memory = config->memory;
+     * and reach over the depth band while no band is open. Names of records do not reach beyond EL_LIST_MAX_BYTES; what
+     * is more stays unused. */
+    const uint32_t skipped = (uint32_t)(-(uintptr_t)config->memory & 7U);
+    uint8_t *const memory = (uint8_t *)config->memory + skipped;
+    const uint32_t bytes = ((uint32_t)config->memory_bytes - skipped) / 8 * 8;
     const uint32_t colour_bytes = EL_COLOUR_BAND_BYTES(width, lines);
+    const uint32_t depth_bytes = EL_DEPTH_BAND_BYTES(width, lines);
     const uint32_t bins_at = 2 * colour_bytes;
     const uint32_t list_at = bins_at + EL_BIN_BYTES(config->height, lines);
-    const uint32_t depth_at = (uint32_t)(config->memory_bytes / 8 * 8) - EL_DEPTH_BAND_BYTES(width, lines);
+    const uint32_t left = bytes - list_at - depth_bytes;
+    renderer->list_bytes = left < EL_LIST_MAX_BYTES ? left : EL_LIST_MAX_BYTES;
+    renderer->fixed_bytes = list_at + depth_bytes;
+    renderer->depth = (uint16_t *)(void *)(memory + list_at + renderer->list_bytes);
     for (unsigned i = 0; i < 2; i++) {
         renderer->bands[i].pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
         renderer->bands[i].width = config->width;
-    }
-    renderer->depth = (uint16_t *)(void *)(memory + depth_at);
-    renderer->bands[0].depth = renderer->depth;
-    renderer->bands[1].depth = renderer->depth;
-    renderer->list_bytes = depth_at - list_at;
-    if (renderer->list_bytes > EL_LIST_MAX_BYTES) {
-        /* What names cannot reach stays unused, between the list and the depth band. */
-        renderer->depth = (uint16_t *)(void *)(memory + list_at + EL_LIST_MAX_BYTES);
-        renderer->bands[0].depth = renderer->depth;
-        renderer->bands[1].depth = renderer->depth;
-        renderer->list_bytes = EL_LIST_MAX_BYTES;
+        renderer->bands[i].depth = renderer->depth;
     }
     el_list_init(&renderer->list, memory + list_at, renderer->list_bytes, (uint16_t *)(void *)(memory + bins_at),
                  renderer->band_count, config->band_lines);

@@ -25,15 +25,27 @@
 #include "raster/list.h"
 #include "raster/material.h"
 
-/* Bytes that one listed triangle takes: flat and Gouraud; textured. */
+/* Bytes that one listed triangle takes, flat or Gouraud and textured, and a vertex while its mesh is drawn. */
+#if EL_SUBPIXEL_BITS == 4
 #define EL_TRIANGLE_BYTES 24
 #define EL_TEXTURED_TRIANGLE_BYTES 32
 #define EL_VERTEX_BYTES 10
+#else
+#define EL_TRIANGLE_BYTES 48
+#define EL_TEXTURED_TRIANGLE_BYTES 56
+#define EL_VERTEX_BYTES 16
+#endif
 
 enum {
     EL_MIN_LIST_BYTES = 512, /* room for a run, a cut triangle and a few vertices at a time */
-    EL_RUN_BYTES = 32        /* per draw call, at most */
+    EL_RUN_BYTES = 32        /* a draw call's, and another for each change between whole and cut triangles */
 };
+
+_Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
+               "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_run) <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
 #define EL_MAX_OF(a, b) ((a) > (b) ? (a) : (b))
@@ -43,26 +55,28 @@ enum {
 #define EL_BIN_BYTES(height, band_lines) EL_ROUND_UP_8(2U * (((height) + (band_lines)-1U) / (band_lines)))
 
 /* An arena in which a frame of `draws` draw calls of meshes of at most `vertices` vertices each, with `triangles` visible
- * textured triangles in all, takes one pass (24/32 of that for triangles without textures). While triangles are
+ * textured triangles in all, takes one pass (24/32 of that for triangles without textures). A triangle that is cut at the
+ * near or far plane or the guard band counts for up to seven of three times the size; few are. While triangles are
  * collected the vertices lie in the depth band, which is not in use then, and beside it where that is too small.
  * Less memory costs passes, never pixels. */
 #define EL_MEMORY_BYTES(width, height, band_lines, vertices, triangles, draws)                                         \
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
      EL_MAX_OF(EL_DEPTH_BAND_BYTES(width, band_lines), EL_ROUND_UP_8((vertices)*EL_VERTEX_BYTES)) +                    \
-     (triangles)*EL_TEXTURED_TRIANGLE_BYTES + (draws)*EL_RUN_BYTES + 8U)
+     (triangles)*EL_TEXTURED_TRIANGLE_BYTES + (draws)*EL_RUN_BYTES + EL_MIN_LIST_BYTES / 2U + 16U)
 
 /* The least that el_init accepts. */
 #define EL_MIN_MEMORY_BYTES(width, height, band_lines)                                                                 \
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
-     EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES)
+     EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES + 8U)
 
+/* What its pointers name must outlive the renderer. */
 typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
     uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
     uint16_t band_lines;   /* lines per band, 1..height */
     uint16_t background;   /* RGB565 */
     uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; 0: 3, an eighth */
-    void *memory;          /* the arena, the renderer's until the last frame is done; aligned to 8 bytes */
+    void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
 } el_config;
@@ -74,7 +88,8 @@ typedef struct el_renderer {
     el_list list;
     el_band bands[2];
     uint16_t *depth;
-    uint32_t list_bytes; /* all that lies between the bins and the depth band */
+    uint32_t list_bytes;  /* all that lies between the bins and the depth band */
+    uint32_t fixed_bytes; /* bands and bins */
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
@@ -93,7 +108,8 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
  * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or a light without normals. EL_ERROR_RANGE: the
- * pose or the mesh leaves the world; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn. */
+ * pose or the mesh leaves the world, or the mesh is too large for so narrow a view; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
+ * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);
 
 /* Draws and hands over the bands of this pass. Returns 1 when the frame needs another pass: submit everything again, in

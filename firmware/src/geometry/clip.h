@@ -3,7 +3,7 @@
  * Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974. A new vertex lies on an edge between a vertex
  * inside and one outside and is computed from the inside one to the outside one, whichever way the edge runs: both
  * triangles of an edge get the same vertex, so clipped meshes stay watertight. The planes are taken in one order for all
- * triangles for the same reason. */
+ * triangles for the same reason; a plane that is skipped for one triangle cuts none of its edges. */
 #ifndef EL_GEOMETRY_CLIP_H
 #define EL_GEOMETRY_CLIP_H
 

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-/* Triangles in a mesh at most: indices above are the renderer's, for the pieces of clipped triangles. */
+/* The most that a mesh can have. Triangle indices above are reserved. */
 enum { EL_MESH_MAX_TRIANGLES = 61440, EL_MESH_MAX_VERTICES = 65535 };
 
 /* A picture of 2^width_log2 x 2^height_log2 RGB565 texels, row 0 on top; it repeats in both directions.

@@ -36,15 +36,15 @@ void el_pose_turn(el_pose *pose, el_axis axis, el_angle angle)
 /* Scales v to length 1, Q30. False when it has none. */
 static bool normalise(const int64_t v[3], int32_t unit_q30[3])
 {
-    uint64_t largest = 0;
+    uint64_t bits = 0;
     for (unsigned i = 0; i < 3; i++) {
-        largest |= el_abs_u64(v[i]);
+        bits |= el_abs_u64(v[i]);
     }
-    if (largest == 0) {
+    if (bits == 0) {
         return false;
     }
     /* 30 bits each: the sum of squares stays below 2^62. */
-    const int shift = el_bit_length_u64(largest) - 30;
+    const int shift = el_bit_length_u64(bits) - 30;
     int64_t scaled[3];
     uint64_t sum = 0;
     for (unsigned i = 0; i < 3; i++) {

@@ -51,7 +51,8 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
     }
     const uint64_t near = camera->near_q16;
     const uint64_t far = camera->far_q16;
-    if (outside_unit(camera->axes_q30) || near < 16 || far < near + (near + 7) / 8 || far > MAX_POSITION_Q16 ||
+    if ((camera->projection != EL_PERSPECTIVE && camera->projection != EL_ORTHOGRAPHIC) ||
+        outside_unit(camera->axes_q30) || near < 16 || far < near + (near + 7) / 8 || far > MAX_POSITION_Q16 ||
         (camera->aspect_q16 != 0 && (camera->aspect_q16 < 256 || camera->aspect_q16 > (1U << 24)))) {
         return EL_ERROR_CAMERA;
     }
@@ -59,7 +60,7 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
         return EL_ERROR_RANGE;
     }
 
-    uint64_t focal_q32; /* of y: 2^25 < focal_q32 < 2^39 in perspective, at most 2^49 in orthographic projection */
+    uint64_t focal_q32; /* of y: 2^25 < focal_q32 < 2^39 in perspective, at most 2^41 in orthographic projection */
     if (camera->projection == EL_PERSPECTIVE) {
         if (camera->fov_y < EL_DEGREES(1, 1) || camera->fov_y > EL_DEGREES(179, 1)) {
             return EL_ERROR_CAMERA;
@@ -261,6 +262,10 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
     return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
 }
 
+/* A coarser unit leaves w too few bits to divide by: meshes of thousands of units before a camera whose picture is a
+ * fraction of one across. In orthographic projection w is one world unit; in perspective it is the distance. */
+enum { MIN_UNIT_LOG2_PERSPECTIVE = 0, MIN_UNIT_LOG2_ORTHOGRAPHIC = 8 };
+
 int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
 {
     el_form forms[3];
@@ -276,6 +281,9 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     const el_factor one = {.mantissa = 1U << 30, .exponent = 30};
     const el_factor factors[3] = {view->focal[0], view->focal[1], one};
     const int unit_log2 = choose_unit(view, mesh, forms, factors);
+    if (unit_log2 < (view->projection == EL_PERSPECTIVE ? MIN_UNIT_LOG2_PERSPECTIVE : MIN_UNIT_LOG2_ORTHOGRAPHIC)) {
+        return EL_ERROR_RANGE;
+    }
 
     /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
     int64_t rows[9];
@@ -370,13 +378,13 @@ uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
     return (uint8_t)code;
 }
 
-/* middle + half * c / w in 1/16 px, to the nearest, ties up.
- * |c| <= w << guard_shift keeps the quotient within EL_GUARD_SUB; |c| * half < 2^30 * 2^15. */
-static int16_t snap(int64_t c, uint16_t size, uint32_t w, const el_divisor *divisor)
+/* middle + half * c / w in 1/EL_SUBPIXELS px, to the nearest, ties up.
+ * |c| <= w << guard_shift keeps the quotient within EL_GUARD_SUB; |c| * half < 2^30 * 2^18. */
+static el_coordinate snap(int64_t c, uint16_t size, uint32_t w, const el_divisor *divisor)
 {
     const int32_t half = size * (EL_SUBPIXELS / 2);
     const int32_t offset = el_divide_floor_i64(c * half + (w >> 1), divisor);
-    return (int16_t)(half + offset);
+    return (el_coordinate)(half + offset);
 }
 
 void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
@@ -386,23 +394,22 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
     screen->x = snap(vertex->x, transform->size[0], w, &divisor);
     screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
 
-    uint32_t inverse_w_q32 = 0xFFFFFFFFU; /* near / w */
     uint32_t z;
     if (transform->orthographic) {
         const uint64_t distance = (uint64_t)(vertex->d - transform->near);
         const uint64_t product = distance * transform->depth_scale;
         z = (uint32_t)((product + ((1ULL << transform->depth_shift) >> 1)) >> transform->depth_shift);
     } else {
-        if (transform->near_q32 < (uint64_t)w << 32) {
-            inverse_w_q32 = el_divide_u64(transform->near_q32, &divisor);
-        }
         /* depth = scale * (1 - near / w) */
-        const uint64_t product = (uint64_t)transform->depth_scale * ~inverse_w_q32;
+        const uint32_t ratio_q32 =
+            transform->near_q32 < (uint64_t)w << 32 ? el_divide_u64(transform->near_q32, &divisor) : 0xFFFFFFFFU;
+        const uint64_t product = (uint64_t)transform->depth_scale * ~ratio_q32;
         z = (uint32_t)((product + (1ULL << 43)) >> 44);
     }
     screen->z = (uint16_t)(z > EL_DEPTH_MAX ? EL_DEPTH_MAX : z);
 
-    inverse_w_q32 |= 1U; /* never 0; far below the 16 bits that are kept, or at the end of the range */
-    screen->w_shift = (uint8_t)__builtin_clz(inverse_w_q32);
-    screen->w = (uint16_t)((inverse_w_q32 << screen->w_shift) >> 16);
+    /* 1/w = (2^32 + reciprocal) * 2^(shift - 64): the upper 16 bits of the sum, rounded, its first bit included. */
+    const uint32_t rest = ((divisor.reciprocal >> 16) + 1U) >> 1;
+    screen->w = (uint16_t)(0x8000U + (rest > 0x7FFFU ? 0x7FFFU : rest));
+    screen->w_shift = (uint8_t)(31 - divisor.shift);
 }

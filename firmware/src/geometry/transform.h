@@ -79,12 +79,12 @@ typedef struct el_clip_vertex {
 
 /* A vertex on the screen. Where code has a bit of EL_CODE_CLIP, only code is valid. */
 typedef struct el_screen_vertex {
-    int16_t x;       /* 1/16 px, right */
-    int16_t y;       /* 1/16 px, down */
+    el_coordinate x; /* right */
+    el_coordinate y; /* down */
     uint16_t z;      /* 0 near .. EL_DEPTH_MAX far */
-    uint16_t w;      /* 1/w: upper 16 bits of near/w as Q32, normalised: 2^15 <= w */
+    uint16_t w;      /* 1/w is w * 2^-w_shift in a unit of the draw; 2^15 <= w */
     uint8_t code;    /* EL_CODE_ bits */
-    uint8_t w_shift; /* how far w was shifted left, 0..31 */
+    uint8_t w_shift; /* 0..31 */
 } el_screen_vertex;
 
 /* The clip coordinates of a mesh position. */
@@ -93,7 +93,7 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
 /* Where a clip vertex lies. */
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);
 
-/* Perspective division, viewport, snapping (to the nearest 1/16 px, ties towards +x and +y up) and depth.
+/* Perspective division, viewport, snapping (to nearest, ties to the right and down) and depth.
  * Pre: el_outcode has no bit of EL_CODE_CLIP. Sets all but code. */
 void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen);
 

@@ -16,33 +16,41 @@
 #include "geometry/limits.h"
 
 typedef struct el_edge {
-    int32_t x;     /* first pixel not left of the edge on this row; within +-2041 on the edge's own rows */
-    int32_t step;  /* floor(dx / dy) */
-    uint32_t rest; /* 0 <= rest < height */
-    uint32_t rest_step;
-    uint32_t height; /* dy in 1/16 px, at most 65280 */
+    int32_t x;          /* first pixel not left of the edge on this row; within +-2041 on the edge's own rows */
+    int32_t step;       /* floor(dx / dy) */
+    uint32_t rest;      /* 0 <= rest < height */
+    uint32_t rest_step; /* 0 <= rest_step < height */
+    uint32_t height;    /* dy, at most 2 * EL_GUARD_SUB */
 } el_edge;
 
-/* The first row (or column) whose centre is not before `a`, in 1/16 px. */
+/* What m below fits: |m| < 2^(20 + EL_SUBPIXEL_BITS) * 2^5 = 2^29 with 4 bits, 2^31.2 with 6, 2^33.2 with 8. */
+#if EL_SUBPIXEL_BITS == 4
+typedef int32_t el_edge_number;
+#else
+typedef int64_t el_edge_number;
+#endif
+
+/* The first row (or column) whose centre is not before `a`, in 1/EL_SUBPIXELS px. */
 static inline int32_t el_first_centre(int32_t a)
 {
     return (a + (EL_SUBPIXELS / 2 - 1)) >> EL_SUBPIXEL_BITS;
 }
 
-/* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/16 px within +-EL_GUARD_SUB,
- * y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
+/* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within
+ * +-EL_GUARD_SUB, y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
 static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
-    const int32_t dx = x1 - x0; /* |dx| <= 65280 */
-    const int32_t dy = y1 - y0; /* 1..65280 */
+    const int32_t dx = x1 - x0; /* |dx| <= 2 * EL_GUARD_SUB */
+    const int32_t dy = y1 - y0; /* 1 to 2 * EL_GUARD_SUB */
     const int32_t half = EL_SUBPIXELS / 2;
-    /* x = ceil(n / (16 dy)), n = (x0 - half) dy + (centre - y0) dx. |n| <= 32648 * 65280 + 65280^2 < 2^32.6, and n moves
-     * by 16 dx per row, so m = floor((n + 16 dy - 1) / 16), |m| < 2^29, moves by dx, and x = floor(m / dy). */
+    /* With S = EL_SUBPIXELS and G = EL_GUARD_SUB: x = ceil(n / (S dy)), n = (x0 - half) dy + (centre - y0) dx.
+     * |n| <= (G + half) 2G + (2G)^2 < 6.01 G^2: 2^32.6 for S = 16, 2^40.6 for S = 256. n moves by S dx per row, so
+     * m = floor((n + S dy - 1) / S) moves by dx, and x = floor(m / dy). */
     const int64_t n = (int64_t)(x0 - half) * dy + (int64_t)(row * EL_SUBPIXELS + half - y0) * dx;
-    const int32_t m = (int32_t)((n + (int64_t)EL_SUBPIXELS * dy - 1) >> EL_SUBPIXEL_BITS);
+    const el_edge_number m = (el_edge_number)((n + (int64_t)EL_SUBPIXELS * dy - 1) >> EL_SUBPIXEL_BITS);
     /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): y0 < y1. */
-    int32_t quotient = m / dy;
-    int32_t rest = m - quotient * dy;
+    int32_t quotient = (int32_t)(m / dy);
+    int32_t rest = (int32_t)(m - (el_edge_number)quotient * dy);
     if (rest < 0) {
         quotient--;
         rest += dy;
@@ -63,7 +71,7 @@ static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x
 static inline void el_edge_next_row(el_edge *edge)
 {
     edge->x += edge->step;
-    edge->rest += edge->rest_step; /* below 2 * 65280 */
+    edge->rest += edge->rest_step; /* below 4 * EL_GUARD_SUB */
     if (edge->rest >= edge->height) {
         edge->rest -= edge->height;
         edge->x++;

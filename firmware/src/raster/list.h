@@ -2,7 +2,8 @@
  *
  * Runs follow each other in one block of memory, in the order of submission: a run is a header (what was drawn, how) and
  * its records, one per triangle, all of one kind. A record holds the snapped corners only; colours and texture
- * coordinates stay in the mesh until the triangle is set up. That costs 24 or 32 bytes per visible triangle and nothing
+ * coordinates stay in the mesh until the triangle is set up. That costs 24 or 32 bytes (48 or 56 with more than 4 sub-pixel bits) per visible
+ * triangle and nothing
  * for those that are not. Triangles that were cut carry their own attributes.
  *
  * Records are named by their offset in units of 8 bytes, so a later record has a larger name: comparing names compares
@@ -48,7 +49,7 @@ typedef struct el_run {
 } el_run;
 
 typedef struct el_point {
-    int16_t x, y; /* 1/16 px */
+    el_coordinate x, y;
     uint16_t z;
 } el_point;
 
@@ -79,9 +80,6 @@ typedef struct el_record_clipped {
     el_record_perspective perspective;
     el_attributes attributes[3];
 } el_record_clipped;
-
-_Static_assert(sizeof(el_record) == 24, "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(el_record_perspective) == 32, "the size that EL_MEMORY_BYTES counts with");
 
 typedef struct el_list {
     uint8_t *base;  /* 8-byte aligned */

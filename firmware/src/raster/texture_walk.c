@@ -39,14 +39,6 @@ static int32_t log2_ceil_q8(uint64_t x)
     return (63 - leading) * 256 + log2_q8[(((x << leading) >> 56) & 127U) + 1U] + 1;
 }
 
-/* base + (numerator << shift) / w, Q16 texels, rounded down. |numerator << shift| < 2^59; at covered pixels the quotient
- * lies within the corners' range. */
-static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, const el_divisor *w)
-{
-    const int64_t numerator = (int64_t)(int32_t)(uint32_t)(numerator_q32 >> 32) * ((int64_t)1 << shift);
-    return (int32_t)((uint32_t)base_q16 + (uint32_t)el_divide_floor_i64(numerator, w));
-}
-
 /* 1/w at a value of its plane; at covered pixels it lies between the corners', which are 1 at least. */
 static uint32_t whole(uint64_t w_q32)
 {
@@ -54,13 +46,26 @@ static uint32_t whole(uint64_t w_q32)
     return w == 0 ? 1U : w;
 }
 
+/* base + (numerator << shift) / w, Q16 texels, rounded down: the numerator with all of its fraction over the upper 32 bits
+ * of 1/w, which `w` has normalised by `w_shift`. At covered pixels the quotient lies within the corners' range, below
+ * 2^28, so numerator << (shift + w_shift - 32), which is the quotient times 32 bits, stays below 2^60. */
+static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, const el_divisor *w, int w_shift)
+{
+    const int total = shift + w_shift - 32;
+    const int64_t numerator = total >= 0 ? (int64_t)(numerator_q32 << total) : (int64_t)numerator_q32 >> -total;
+    return (int32_t)((uint32_t)base_q16 + (uint32_t)el_divide_floor_i64(numerator, w));
+}
+
+/* u and v `pixels` after the walk's position. */
 static void exact(const el_texture_walk *walk, const el_triangle *triangle, uint32_t pixels, int32_t *u_q16,
                   int32_t *v_q16)
 {
     const el_plane *const planes = triangle->planes;
-    const el_divisor w = el_divisor_make(whole(walk->w + planes[EL_PLANE_W].dx * pixels));
-    *u_q16 = knot(walk->u + planes[EL_PLANE_U].dx * pixels, triangle->u_shift, triangle->u_base_q16, &w);
-    *v_q16 = knot(walk->v + planes[EL_PLANE_V].dx * pixels, triangle->v_shift, triangle->v_base_q16, &w);
+    const uint64_t w_q32 = walk->w + planes[EL_PLANE_W].dx * pixels;
+    const int w_shift = w_q32 == 0 ? 0 : __builtin_clzll(w_q32);
+    const el_divisor w = el_divisor_make((uint32_t)((w_q32 << w_shift) >> 32) | (1U << 31));
+    *u_q16 = knot(walk->u + planes[EL_PLANE_U].dx * pixels, triangle->u_shift, triangle->u_base_q16, &w, w_shift);
+    *v_q16 = knot(walk->v + planes[EL_PLANE_V].dx * pixels, triangle->v_shift, triangle->v_base_q16, &w, w_shift);
 }
 
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
@@ -84,10 +89,9 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
 {
     const el_plane *const planes = triangle->planes;
     const uint64_t column = (uint64_t)(int64_t)x;
-    const uint64_t half = 1ULL << 31;
-    walk->w = planes[EL_PLANE_W].row + planes[EL_PLANE_W].dx * column + half;
-    walk->u = planes[EL_PLANE_U].row + planes[EL_PLANE_U].dx * column + half;
-    walk->v = planes[EL_PLANE_V].row + planes[EL_PLANE_V].dx * column + half;
+    walk->w = planes[EL_PLANE_W].row + planes[EL_PLANE_W].dx * column;
+    walk->u = planes[EL_PLANE_U].row + planes[EL_PLANE_U].dx * column;
+    walk->v = planes[EL_PLANE_V].row + planes[EL_PLANE_V].dx * column;
     walk->length = LENGTHS - 1;
     exact(walk, triangle, 0, &walk->u_q16, &walk->v_q16);
     walk->next_u_q16 = walk->u_q16;

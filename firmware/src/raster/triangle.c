@@ -37,10 +37,10 @@ static void sort_corners(const el_corner corners[3], const el_corner *sorted[3])
     }
 }
 
-/* u/w and v/w at the corners. Texture coordinates are taken relative to a whole texel in the middle of their range, and
- * scaled so that |U| < 2^31. */
+/* u/w and v/w at the corners, relative to the middle of their range, scaled so that |U| < 2^31, with
+ * EL_PLANE_FRACTION_BITS bits of fraction. */
 static void divide_texture_coordinate(const int32_t coordinates_q16[3], const uint32_t w[3], int32_t *base_q16,
-                                      uint8_t *shift, int32_t values[3])
+                                      uint8_t *shift, int64_t values[3])
 {
     int32_t least = coordinates_q16[0];
     int32_t most = coordinates_q16[0];
@@ -48,24 +48,24 @@ static void divide_texture_coordinate(const int32_t coordinates_q16[3], const ui
         least = el_min_i32(least, coordinates_q16[i]);
         most = el_max_i32(most, coordinates_q16[i]);
     }
-    const int32_t middle = (least + most) >> 1; /* |u| < 2^27 */
-    *base_q16 = middle - (middle & 0xFFFF);
-    const uint32_t reach = (uint32_t)el_max_i32(most - *base_q16, *base_q16 - least);
-    *shift = (uint8_t)el_bit_length_u32(reach); /* reach < 2^28 */
+    *base_q16 = (least + most) >> 1; /* |u| < 2^27 */
+    const int bits = el_bit_length_u32((uint32_t)(most - *base_q16));
+    /* Not so few that the extra fraction would have to be shifted the other way; at most 27. */
+    *shift = (uint8_t)el_max_i32(bits, EL_PLANE_FRACTION_BITS);
     for (unsigned i = 0; i < 3; i++) {
-        /* |difference| < 2^shift and w < 2^31, so the product is below 2^(shift + 31); rounding cannot reach 2^31 because
-         * |difference| <= 2^shift - 1 and w <= 2^31 - 1. */
+        /* |difference| <= 2^shift - 1 and w <= 2^31 - 1: the product is below 2^58, and the quotient stays below 2^31
+         * when it is rounded. */
         const int64_t product = (int64_t)(coordinates_q16[i] - *base_q16) * w[i];
-        values[i] = (int32_t)el_shift_i64(product, *shift);
+        values[i] = el_shift_i64(product, *shift - EL_PLANE_FRACTION_BITS);
     }
 }
 
 static void make_planes(el_triangle *triangle, const el_corner *const corners[3], const el_plane_frame *frame)
 {
     const el_shading shading = triangle->surface.shading;
-    int32_t values[EL_MAX_PLANES][3];
-    unsigned first_colour = EL_PLANE_RED;
-    if (shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD) {
+    const bool textured = shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD;
+    int64_t values[EL_MAX_PLANES][3];
+    if (textured) {
         int32_t u_q16[3];
         int32_t v_q16[3];
         uint32_t w[3];
@@ -78,15 +78,15 @@ static void make_planes(el_triangle *triangle, const el_corner *const corners[3]
         const int shift = 31 - el_bit_length_u32(w[0] | w[1] | w[2]);
         for (unsigned i = 0; i < 3; i++) {
             w[i] <<= shift;
-            values[EL_PLANE_W][i] = (int32_t)w[i];
+            values[EL_PLANE_W][i] = w[i];
         }
         divide_texture_coordinate(u_q16, w, &triangle->u_base_q16, &triangle->u_shift, values[EL_PLANE_U]);
         divide_texture_coordinate(v_q16, w, &triangle->v_base_q16, &triangle->v_shift, values[EL_PLANE_V]);
-        first_colour = EL_PLANE_LIGHT_RED;
     }
+    const unsigned first_colour = textured ? EL_PLANE_LIGHT_RED : EL_PLANE_RED;
     for (unsigned i = 0; i < 3; i++) {
         values[EL_PLANE_Z][i] = corners[i]->z;
-        for (unsigned channel = 0; channel < 3 && first_colour + channel < EL_MAX_PLANES; channel++) {
+        for (unsigned channel = 0; channel < 3; channel++) {
             values[first_colour + channel][i] = corners[i]->rgb_q8[channel];
         }
     }
@@ -94,7 +94,8 @@ static void make_planes(el_triangle *triangle, const el_corner *const corners[3]
     triangle->planes[EL_PLANE_Z] = (el_plane){0};
     const unsigned count = el_plane_count(shading);
     for (unsigned i = triangle->surface.depth ? 0U : 1U; i < count; i++) {
-        el_plane_make(&triangle->planes[i], frame, values[i]);
+        const bool has_fraction = textured && (i == EL_PLANE_U || i == EL_PLANE_V);
+        el_plane_make(&triangle->planes[i], frame, values[i], has_fraction ? EL_PLANE_FRACTION_BITS : 0U);
     }
 }
 

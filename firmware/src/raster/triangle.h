@@ -29,7 +29,7 @@ unsigned el_plane_count(el_shading shading);
 
 /* A triangle for set-up: screen corners and what is shaded. Both windings are drawn. */
 typedef struct el_corner {
-    int32_t x, y; /* 1/16 px, within +-EL_GUARD_SUB */
+    int32_t x, y; /* 1/EL_SUBPIXELS px, within +-EL_GUARD_SUB */
     uint16_t z;
     uint32_t w;           /* textured: 1/w in any unit that the corners share, 1 <= w < 2^31 */
     int32_t u_q16, v_q16; /* textured: texels, |u|, |v| < 2048 texels */

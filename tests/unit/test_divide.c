@@ -1,0 +1,167 @@
+/* Division by a reciprocal is exact: against `/` and 128-bit arithmetic, for divisors of every size. */
+#include "base/divide.h"
+
+#include "seeded.h"
+
+typedef __int128 wide;
+
+enum { ROUNDS = 200000 };
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+static void expect_reciprocal(const seeded *s, uint32_t d)
+{
+    const el_divisor divisor = el_divisor_make(d);
+    if (divisor.shift > 31 || divisor.normalised >> 31 != 1 || divisor.normalised >> divisor.shift != d ||
+        divisor.normalised << (31 - divisor.shift) << 1 != 0) {
+        fail_at(s, "%lu normalised is %lu << %d", (unsigned long)d, (unsigned long)divisor.normalised, divisor.shift);
+    }
+    const uint64_t expected = UINT64_MAX / divisor.normalised - (1ULL << 32);
+    if (divisor.reciprocal != expected) {
+        fail_at(s, "reciprocal of %lu is %llu, not %lu", (unsigned long)divisor.normalised,
+                (unsigned long long)expected, (unsigned long)divisor.reciprocal);
+    }
+}
+
+/* Truncated towards zero, modulo 2^64; the wide division has the same quotients where both can divide. */
+static void expect_q32(const seeded *s, int64_t n, uint32_t fraction, uint32_t d)
+{
+    const el_divisor divisor = el_divisor_make(d);
+    const uint64_t expected = (uint64_t)(((wide)n * ((wide)1 << 32) + fraction) / d);
+    if ((uint64_t)el_divide_q32(n, fraction, &divisor) != expected ||
+        (uint64_t)el_divide_wide_q32(n, fraction, d) != expected) {
+        fail_at(s, "(%lld + %lu * 2^-32) / %lu in Q32", (long long)n, (unsigned long)fraction, (unsigned long)d);
+    }
+}
+
+/* What is too large for its function is left out; the ends of what is not are always in. */
+static void expect_quotients(const seeded *s, uint32_t d, uint64_t n)
+{
+    const el_divisor divisor = el_divisor_make(d);
+    if (n / d <= UINT32_MAX && el_divide_u64(n, &divisor) != n / d) {
+        fail_at(s, "%llu / %lu", (unsigned long long)n, (unsigned long)d);
+    }
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const wide signed_n = (wide)n * sign;
+        if (signed_n <= INT64_MIN || signed_n > INT64_MAX) {
+            continue;
+        }
+        const wide quotient = signed_n / d;
+        const wide floor = quotient - (quotient * d > signed_n);
+        if (floor >= INT32_MIN && floor <= INT32_MAX && el_divide_floor_i64((int64_t)signed_n, &divisor) != floor) {
+            fail_at(s, "floor(%lld / %lu)", (long long)signed_n, (unsigned long)d);
+        }
+        expect_q32(s, (int64_t)signed_n, 0, d);
+        expect_q32(s, (int64_t)signed_n, 1, d);
+        expect_q32(s, (int64_t)signed_n, 0x80000000, d);
+        expect_q32(s, (int64_t)signed_n, UINT32_MAX, d);
+    }
+}
+
+/* Where quotients change, and at the ends of the three functions' ranges. */
+static void expect_edges(const seeded *s, uint32_t d)
+{
+    static const uint64_t quotients[] = {0, 1, 2, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFE, 0xFFFFFFFF};
+    expect_reciprocal(s, d);
+    for (unsigned i = 0; i < sizeof quotients / sizeof quotients[0]; i++) {
+        const uint64_t n = quotients[i] * d;
+        expect_quotients(s, d, n);
+        expect_quotients(s, d, n + 1);
+        expect_quotients(s, d, n + d - 1);
+        expect_quotients(s, d, n == 0 ? 0 : n - 1);
+    }
+    expect_quotients(s, d, INT64_MAX);
+}
+
+static void test_small_divisors_and_powers_of_two(void)
+{
+    seeded s = seeded_from(0);
+    for (uint32_t d = 1; d <= 2048; d++) {
+        expect_edges(&s, d);
+        expect_edges(&s, 0 - d);
+    }
+    for (int i = 1; i < 32; i++) {
+        for (uint32_t d = (1U << i) - 1; d <= (1U << i) + 1; d++) {
+            expect_edges(&s, d);
+        }
+    }
+}
+
+/* The reciprocal starts from the upper ten bits and is refined from the upper 21: divisors beside each step of these. */
+static void test_divisors_beside_the_steps_of_the_first_guess(void)
+{
+    seeded s = seeded_from(0);
+    for (uint32_t d10 = 512; d10 < 1024; d10++) {
+        for (uint32_t i = 0; i < 4; i++) {
+            expect_reciprocal(&s, (d10 << 22) + i);
+            expect_reciprocal(&s, (d10 << 22) + 0x3FFFFF - i);
+            expect_reciprocal(&s, (d10 << 22) + 0x7FF + i);
+        }
+    }
+}
+
+static void test_reciprocals_seeded(void)
+{
+    for (seeded s = seeded_from(5); s.round < ROUNDS; s.round++) {
+        expect_reciprocal(&s, (uint32_t)any_u64(&s) | 1U);
+        expect_reciprocal(&s, (uint32_t)any_of_bits(&s, 32) | 1U);
+    }
+}
+
+static void test_quotients_seeded(void)
+{
+    for (seeded s = seeded_from(6); s.round < ROUNDS; s.round++) {
+        const uint32_t d = (uint32_t)(any_of_bits(&s, 31) + 1);
+        expect_quotients(&s, d, any_of_bits(&s, 63));
+        const uint64_t multiple = any_of_bits(&s, 32) * d; /* remainders of 0 and of d - 1 */
+        expect_quotients(&s, d, multiple);
+        expect_quotients(&s, d, multiple + d - 1);
+    }
+}
+
+static void test_wide_divisors_seeded(void)
+{
+    for (seeded s = seeded_from(83); s.round < ROUNDS; s.round++) {
+        const uint64_t d = 1 + any_of_bits(&s, 47) % ((1ULL << 47) - 1);
+        const int64_t n = any_signed_of_bits(&s, 63);
+        const uint32_t fraction = (uint32_t)any_of_bits(&s, 32);
+        const uint64_t expected = (uint64_t)(((wide)n * ((wide)1 << 32) + fraction) / (wide)d);
+        if ((uint64_t)el_divide_wide_q32(n, fraction, d) != expected) {
+            fail_at(&s, "(%lld + %lu * 2^-32) / %llu in Q32", (long long)n, (unsigned long)fraction,
+                    (unsigned long long)d);
+        }
+    }
+}
+
+static void test_two_words_by_one(void)
+{
+    for (seeded s = seeded_from(7); s.round < ROUNDS; s.round++) {
+        const el_divisor divisor = el_divisor_make((uint32_t)(any_of_bits(&s, 31) + 1));
+        const uint32_t high = (uint32_t)(any_of_bits(&s, 32) % divisor.normalised);
+        const uint32_t low = (uint32_t)any_of_bits(&s, 32);
+        const uint64_t n = (uint64_t)high << 32 | low;
+        uint32_t rest;
+        const uint32_t quotient = el_divide_words(high, low, &divisor, &rest);
+        if (quotient != n / divisor.normalised || rest != n % divisor.normalised) {
+            fail_at(&s, "%llu / %lu", (unsigned long long)n, (unsigned long)divisor.normalised);
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_small_divisors_and_powers_of_two);
+    RUN_TEST(test_divisors_beside_the_steps_of_the_first_guess);
+    RUN_TEST(test_reciprocals_seeded);
+    RUN_TEST(test_quotients_seeded);
+    RUN_TEST(test_wide_divisors_seeded);
+    RUN_TEST(test_two_words_by_one);
+    return UNITY_END();
+}

@@ -1,0 +1,218 @@
+/* Integer arithmetic against 128-bit arithmetic, at the ends of every range and in seeded loops. */
+#include "base/fixed.h"
+
+#include "seeded.h"
+
+typedef __int128 wide;
+
+static const int64_t edges[] = {0,
+                                1,
+                                2,
+                                3,
+                                0x7FFFFFFF,
+                                0x80000000,
+                                0xFFFFFFFF,
+                                0x100000000,
+                                0x3FFFFFFFFFFFFFFF,
+                                0x4000000000000000,
+                                INT64_MAX - 1,
+                                INT64_MAX,
+                                -1,
+                                -2,
+                                -3,
+                                -0x80000000LL,
+                                -0x100000000,
+                                -INT64_MAX,
+                                INT64_MIN};
+enum { EDGES = sizeof edges / sizeof edges[0] };
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+static int64_t saturated(wide value)
+{
+    return value > INT64_MAX ? INT64_MAX : (value < -INT64_MAX ? -INT64_MAX : (int64_t)value);
+}
+
+/* value / 2^shift, rounded to nearest, ties up: floor(value / 2^shift + 1/2). */
+static wide rounded(wide value, int shift)
+{
+    return shift == 0 ? value : (value + ((wide)1 << (shift - 1))) >> shift;
+}
+
+static void test_bit_lengths(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, el_bit_length_u32(0));
+    TEST_ASSERT_EQUAL_INT(0, el_bit_length_u64(0));
+    for (int i = 0; i < 64; i++) {
+        const uint64_t lowest = 1ULL << i;
+        TEST_ASSERT_EQUAL_INT(i + 1, el_bit_length_u64(lowest));
+        TEST_ASSERT_EQUAL_INT(i + 1, el_bit_length_u64(lowest | (lowest - 1)));
+        if (i < 32) {
+            TEST_ASSERT_EQUAL_INT(i + 1, el_bit_length_u32((uint32_t)lowest));
+            TEST_ASSERT_EQUAL_INT(i + 1, el_bit_length_u32((uint32_t)(lowest | (lowest - 1))));
+        }
+    }
+}
+
+static void test_magnitudes_and_the_smaller_and_larger(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0x8000000000000000, el_abs_u64(INT64_MIN));
+    TEST_ASSERT_EQUAL_UINT64(INT64_MAX, el_abs_u64(-INT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(0, el_abs_u64(0));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, el_min_i32(INT32_MIN, INT32_MAX));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, el_min_i32(INT32_MAX, INT32_MIN));
+    TEST_ASSERT_EQUAL_INT32(INT32_MAX, el_max_i32(INT32_MIN, INT32_MAX));
+    TEST_ASSERT_EQUAL_INT32(INT32_MAX, el_max_i32(INT32_MAX, INT32_MIN));
+}
+
+/* By its definition: root^2 <= x < (root + 1)^2. */
+static void expect_root(const seeded *s, uint64_t x)
+{
+    const uint32_t root = el_sqrt_u64(x);
+    const unsigned __int128 next = (unsigned __int128)root + 1;
+    if ((uint64_t)root * root > x || next * next <= x) {
+        fail_at(s, "sqrt(%llu) = %lu", (unsigned long long)x, (unsigned long)root);
+    }
+}
+
+static void test_square_roots(void)
+{
+    seeded s = seeded_from(1);
+    for (uint64_t x = 0; x < 1000; x++) {
+        expect_root(&s, x);
+    }
+    expect_root(&s, UINT64_MAX);
+    for (; s.round < 20000; s.round++) {
+        const uint64_t root = any_of_bits(&s, 32);
+        expect_root(&s, root * root);
+        expect_root(&s, root * root + 1);
+        expect_root(&s, root == 0 ? 0 : root * root - 1);
+        expect_root(&s, any_of_bits(&s, 64));
+    }
+}
+
+static void expect_scaled(const seeded *s, int64_t value, uint32_t factor, int shift)
+{
+    const int64_t expected = saturated(rounded((wide)value * factor, shift));
+    const int64_t got = el_scale_i64(value, factor, shift);
+    if (got != expected) {
+        fail_at(s, "%lld * %lu >> %d is %lld, not %lld", (long long)value, (unsigned long)factor, shift,
+                (long long)expected, (long long)got);
+    }
+}
+
+static void test_scale_at_the_edges(void)
+{
+    static const uint32_t factors[] = {0, 1, 2, 3, 0x40000000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF};
+    seeded s = seeded_from(0);
+    for (unsigned i = 0; i < EDGES; i++) {
+        for (unsigned k = 0; k < sizeof factors / sizeof factors[0]; k++) {
+            for (int shift = 0; shift <= 94; shift++) {
+                expect_scaled(&s, edges[i], factors[k], shift);
+            }
+        }
+    }
+}
+
+static void test_scale_ties_go_up(void)
+{
+    TEST_ASSERT_EQUAL_INT64(2, el_scale_i64(3, 1, 1));   /* 1.5 */
+    TEST_ASSERT_EQUAL_INT64(-1, el_scale_i64(-3, 1, 1)); /* -1.5 */
+    TEST_ASSERT_EQUAL_INT64(0, el_scale_i64(-1, 1, 1));  /* -0.5 */
+    TEST_ASSERT_EQUAL_INT64(-1, el_scale_i64(-(3LL << 31), 1, 32));
+    TEST_ASSERT_EQUAL_INT64(-1, el_scale_i64(-(3LL << 32), 1, 33));
+    TEST_ASSERT_EQUAL_INT64(-2, el_scale_i64(-(3LL << 32) - 1, 1, 33));
+}
+
+static void test_scale_seeded(void)
+{
+    for (seeded s = seeded_from(2); s.round < 200000; s.round++) {
+        const int64_t value = any_signed_of_bits(&s, 63);
+        const uint32_t factor = (uint32_t)any_of_bits(&s, 32);
+        expect_scaled(&s, value, factor, (int)any_between(&s, 0, 94));
+    }
+}
+
+/* A product whose discarded part is exactly one half, or one unit beside it. */
+static void test_scale_next_to_ties(void)
+{
+    for (seeded s = seeded_from(3); s.round < 100000; s.round++) {
+        const int shift = (int)any_between(&s, 1, 62);
+        const int64_t odd = any_signed_of_bits(&s, (unsigned)(63 - shift)) | 1;
+        const int64_t tie = odd * (1LL << (shift - 1));
+        expect_scaled(&s, tie, 1, shift);
+        expect_scaled(&s, tie + 1, 1, shift);
+        expect_scaled(&s, tie - 1, 1, shift);
+    }
+}
+
+/* 64 places are already more than any value has, so the reference stays within 128 bits. */
+static void expect_shifted(const seeded *s, int64_t value, int shift)
+{
+    int64_t expected;
+    if (shift >= 0) {
+        expected = saturated(rounded(value, shift > 100 ? 100 : shift));
+    } else {
+        expected = saturated((wide)value * ((wide)1 << (shift < -64 ? 64 : -shift)));
+    }
+    const int64_t got = el_shift_i64(value, shift);
+    if (got != expected) {
+        fail_at(s, "%lld >> %d is %lld, not %lld", (long long)value, shift, (long long)expected, (long long)got);
+    }
+}
+
+static void test_shift_at_the_edges(void)
+{
+    seeded s = seeded_from(0);
+    for (unsigned i = 0; i < EDGES; i++) {
+        for (int shift = -62; shift <= 100; shift++) {
+            expect_shifted(&s, edges[i], shift);
+        }
+    }
+}
+
+static void test_shift_of_nothing_is_nothing(void)
+{
+    for (int shift = -100; shift <= 100; shift++) {
+        TEST_ASSERT_EQUAL_INT64(0, el_shift_i64(0, shift));
+    }
+}
+
+static void test_shift_saturates(void)
+{
+    TEST_ASSERT_EQUAL_INT64(INT64_MAX, el_shift_i64(1, -63));
+    TEST_ASSERT_EQUAL_INT64(-INT64_MAX, el_shift_i64(-1, -63));
+    TEST_ASSERT_EQUAL_INT64(INT64_MAX, el_shift_i64(1, -1000));
+    TEST_ASSERT_EQUAL_INT64(-INT64_MAX, el_shift_i64(INT64_MIN, 0));
+}
+
+static void test_shift_seeded(void)
+{
+    for (seeded s = seeded_from(4); s.round < 200000; s.round++) {
+        const int64_t value = any_signed_of_bits(&s, 63);
+        expect_shifted(&s, value, (int)any_between(&s, -62, 70));
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_bit_lengths);
+    RUN_TEST(test_magnitudes_and_the_smaller_and_larger);
+    RUN_TEST(test_square_roots);
+    RUN_TEST(test_scale_at_the_edges);
+    RUN_TEST(test_scale_ties_go_up);
+    RUN_TEST(test_scale_seeded);
+    RUN_TEST(test_scale_next_to_ties);
+    RUN_TEST(test_shift_at_the_edges);
+    RUN_TEST(test_shift_of_nothing_is_nothing);
+    RUN_TEST(test_shift_saturates);
+    RUN_TEST(test_shift_seeded);
+    return UNITY_END();
+}

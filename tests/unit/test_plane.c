@@ -1,0 +1,142 @@
+/* A plane's value at every covered pixel against exact rational arithmetic, modulo 2^64 as its header says. */
+#include "raster/plane.h"
+
+#include "any_triangle.h"
+
+typedef __int128 wide;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+/* The value at a pixel's centre times the doubled area, exactly: barycentric weights. */
+static wide exact_times_area(const el_corner corners[3], const int64_t values[3], int32_t column, int32_t row)
+{
+    const int64_t x = (int64_t)column * EL_SUBPIXELS + EL_SUBPIXELS / 2;
+    const int64_t y = (int64_t)row * EL_SUBPIXELS + EL_SUBPIXELS / 2;
+    wide sum = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        sum += (wide)reference_side(&corners[(i + 1) % 3], &corners[(i + 2) % 3], x, y) * values[i];
+    }
+    return sum;
+}
+
+/* Within 2^-19 of the exact value, in Q32. */
+static void expect_value(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
+                         const el_plane *plane, int32_t column, int32_t row)
+{
+    const int64_t area = reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y);
+    const wide exact_q32 = exact_times_area(corners, values, column, row) * ((wide)1 << (32 - fraction_bits)) / area;
+    const int64_t got_q32 = (int64_t)(plane->row + plane->dx * (uint64_t)(int64_t)column);
+    const int64_t error_q32 = (int64_t)((uint64_t)got_q32 - (uint64_t)exact_q32);
+    if (error_q32 > 1 << 13 || error_q32 < -(1 << 13)) {
+        fail_at(s, "pixel (%d, %d) is off by %lld * 2^-32", (int)column, (int)row, (long long)error_q32);
+    }
+}
+
+static void expect_plane(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
+                         int32_t first_row, int32_t last_row, int32_t first_column, int32_t last_column)
+{
+    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
+    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
+    el_plane_frame frame;
+    el_plane walked;
+    el_plane_frame_make(&frame, x, y, first_row);
+    el_plane_make(&walked, &frame, values, fraction_bits);
+    for (int32_t row = first_row; row <= last_row; row++) {
+        el_plane direct;
+        el_plane_frame_make(&frame, x, y, row);
+        el_plane_make(&direct, &frame, values, fraction_bits);
+        if (direct.row != walked.row || direct.dx != walked.dx || direct.dy != walked.dy) {
+            fail_at(s, "row %d differs from the walk", (int)row);
+        }
+        for (int32_t column = first_column; column <= last_column; column++) {
+            if (reference_covers(corners, column, row)) {
+                expect_value(s, corners, values, fraction_bits, &walked, column, row);
+            }
+        }
+        walked.row += walked.dy;
+    }
+}
+
+static void test_areas_and_their_sign(void)
+{
+    static const int32_t x[3] = {0, 16, 0};
+    static const int32_t y[3] = {0, 0, 16};
+    static const int32_t far_x[3] = {-EL_GUARD_SUB, EL_GUARD_SUB, -EL_GUARD_SUB};
+    static const int32_t far_y[3] = {-EL_GUARD_SUB, -EL_GUARD_SUB, EL_GUARD_SUB};
+    TEST_ASSERT_EQUAL_INT64(256, el_doubled_area(x, y)); /* right, then down: clockwise with y down */
+    TEST_ASSERT_EQUAL_INT64(-256, el_doubled_area(y, x));
+    TEST_ASSERT_EQUAL_INT64(4LL * EL_GUARD_SUB * EL_GUARD_SUB, el_doubled_area(far_x, far_y));
+}
+
+/* 16 px wide, from 0 at the left side to 16: a pixel's value is its centre's column. */
+static void test_a_ramp(void)
+{
+    static const int32_t x[3] = {0, 16 * EL_SUBPIXELS, 0};
+    static const int32_t y[3] = {0, 0, 16 * EL_SUBPIXELS};
+    static const int64_t values[3] = {0, 16, 0};
+    el_plane_frame frame;
+    el_plane plane;
+    el_plane_frame_make(&frame, x, y, 3);
+    el_plane_make(&plane, &frame, values, 0);
+    TEST_ASSERT_EQUAL_HEX64(1ULL << 32, plane.dx);
+    TEST_ASSERT_EQUAL_HEX64(0, plane.dy);
+    TEST_ASSERT_EQUAL_HEX64(1ULL << 31, plane.row);
+}
+
+static void test_planes_seeded(void)
+{
+    for (seeded s = seeded_from(50); s.round < 4000; s.round++) {
+        el_corner corners[3];
+        int64_t values[3];
+        const unsigned fraction_bits = s.round % 2 == 0 ? 0 : EL_PLANE_FRACTION_BITS;
+        const int32_t reach = ((int32_t)any_of_bits(&s, 14) + 8) * SIXTEENTH;
+        for (unsigned i = 0; i < 3; i++) {
+            corners[i] = any_corner(&s, 8 * EL_SUBPIXELS, reach);
+            values[i] = any_signed_of_bits(&s, 31 + fraction_bits);
+        }
+        if (reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y) != 0) {
+            expect_plane(&s, corners, values, fraction_bits, 0, 15, 0, 15);
+        }
+    }
+}
+
+/* The whole guard band and the whole range of values, at its far corners. */
+static void test_largest_planes(void)
+{
+    static const int32_t ends[] = {-EL_GUARD_SUB, EL_GUARD_SUB};
+    static const int64_t limits[] = {-INT32_MAX, INT32_MAX};
+    seeded s = seeded_from(0);
+    for (; s.round < 1024; s.round++) {
+        const unsigned fraction_bits = s.round < 512 ? 0 : EL_PLANE_FRACTION_BITS;
+        el_corner corners[3] = {0};
+        int64_t values[3];
+        for (unsigned i = 0; i < 3; i++) {
+            corners[i].x = ends[s.round >> i & 1];
+            corners[i].y = ends[s.round >> (3 + i) & 1];
+            values[i] = limits[s.round >> (6 + i) & 1] * (1 << fraction_bits);
+        }
+        if (reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y) != 0) {
+            expect_plane(&s, corners, values, fraction_bits, EL_GUARD_PX - 3, EL_GUARD_PX - 1, EL_GUARD_PX - 4,
+                         EL_GUARD_PX - 1);
+            expect_plane(&s, corners, values, fraction_bits, -EL_GUARD_PX, 3 - EL_GUARD_PX, -EL_GUARD_PX,
+                         3 - EL_GUARD_PX);
+            expect_plane(&s, corners, values, fraction_bits, 0, 3, 0, 3);
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_areas_and_their_sign);
+    RUN_TEST(test_a_ramp);
+    RUN_TEST(test_planes_seeded);
+    RUN_TEST(test_largest_planes);
+    return UNITY_END();
+}
