@@ -10,6 +10,7 @@
 
 #include "base/angle.h"
 #include "base/bus.h"
+#include "base/dither.h"
 #include "base/port.h"
 #include "base/rgb565.h"
 #include "base/sink.h"

@@ -208,6 +208,7 @@ static void test_impossible_views_are_refused(void)
     static const int32_t origin[3] = {0, 0, 0};
     static const int32_t y[3] = {0, 70000, 0};
     static const int32_t minus_y[3] = {0, -5, 0};
+    static const int32_t almost_y[3] = {1, 1 << 30, 0}; /* what is left of it is rounding, not a direction */
     static const int32_t slanted[3] = {300, -500, 700};
     static const int32_t twice_slanted[3] = {600, -1000, 1400};
     expect_refused(origin, origin, y);
@@ -215,6 +216,7 @@ static void test_impossible_views_are_refused(void)
     expect_refused(slanted, origin, origin);
     expect_refused(y, origin, y);
     expect_refused(y, origin, minus_y);
+    expect_refused(y, origin, almost_y);
     expect_refused(slanted, origin, twice_slanted);
 }
 

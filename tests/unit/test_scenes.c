@@ -78,8 +78,31 @@ static void test_every_scene_shows_something(void)
     }
 }
 
-/* What a scene cannot draw is said, not drawn around: a frame that has begun is an error of the caller's. */
-static void test_play_passes_errors_on(void)
+static el_status refuse(uint32_t frame, el_renderer *renderer)
+{
+    (void)frame;
+    (void)renderer;
+    return EL_ERROR_RANGE;
+}
+
+/* What cannot be drawn is said, and the frame is finished all the same. */
+static void test_play_passes_on_what_draw_refuses(void)
+{
+    const el_sink sink = recording_sink(&record);
+    const el_scene scene = {.place_camera = el_scene_at(0)->place_camera, .draw = refuse};
+    el_renderer renderer;
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_init(&renderer, &(el_config){.width = WIDTH,
+                                                                 .height = HEIGHT,
+                                                                 .band_lines = 8,
+                                                                 .memory = memory,
+                                                                 .memory_bytes = sizeof memory,
+                                                                 .sinks = {&sink}}));
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_scene_play(&scene, 0, &renderer));
+    TEST_ASSERT_EQUAL_UINT32(1, record.frames);
+}
+
+/* A frame that has begun is an error of the caller's. */
+static void test_play_passes_on_what_begin_refuses(void)
 {
     const el_scene *const scene = el_scene_at(0);
     el_renderer renderer;
@@ -100,6 +123,7 @@ int main(void)
     RUN_TEST(test_names_are_unique_and_found);
     RUN_TEST(test_same_picture_for_bands_of_1_and_8_in_the_smallest_arena);
     RUN_TEST(test_every_scene_shows_something);
-    RUN_TEST(test_play_passes_errors_on);
+    RUN_TEST(test_play_passes_on_what_draw_refuses);
+    RUN_TEST(test_play_passes_on_what_begin_refuses);
     return UNITY_END();
 }

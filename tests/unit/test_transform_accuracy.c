@@ -141,6 +141,7 @@ static void run_accuracy(const char *what, uint64_t seed, unsigned place_bits)
     }
     report(what, &sums);
     TEST_ASSERT_GREATER_THAN_UINT64(50000, sums.points);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64_MESSAGE(sums.points / 1000 * 999, sums.correct, "too few rounded correctly");
 }
 
 static void test_positions_near_the_origin(void)

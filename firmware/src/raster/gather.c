@@ -92,6 +92,7 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
     *surface = (el_surface){
         .shading = shading,
         .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW,
+        .dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0,
         .texture = draw->material->texture,
     };
 

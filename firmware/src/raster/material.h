@@ -17,7 +17,8 @@ typedef enum el_shading {
 enum {
     EL_MATERIAL_TWO_SIDED = 1, /* draws back faces too; their normals are turned around */
     EL_MATERIAL_NO_DEPTH = 2,  /* neither tests nor writes depth: what is drawn later covers what was earlier */
-    EL_MATERIAL_FLAT_MEAN = 4  /* flat: the mean of the three vertices' colours instead of the first vertex' */
+    EL_MATERIAL_FLAT_MEAN = 4, /* flat: the mean of the three vertices' colours instead of the first vertex' */
+    EL_MATERIAL_DITHER = 8     /* vertex colours and light: 4x4 ordered dithering to the display's levels (dither.h) */
 };
 
 /* Ambient light and one directional light, both white. */

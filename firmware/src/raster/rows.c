@@ -1,5 +1,6 @@
 /* The loops: rows of a triangle, pixels of a span. Each shading, with and without depth, is the same code with its
  * choices made at compile time, so that none pays for another. */
+#include "base/dither.h"
 #include "raster/texture_walk.h"
 #include "raster/triangle.h"
 
@@ -27,21 +28,17 @@ typedef struct span {
     stepped rgb[3];
 } span;
 
-/* The choices that the compiler makes once per loop. */
-typedef struct loop_kind {
-    bool depth;
-    bool colours;
-    bool texture;
-} loop_kind;
+/* What a loop does: bits of a number that the compiler knows, so that each loop holds only what it needs. */
+enum { DEPTH = 1, COLOURS = 2, TEXTURE = 4, DITHER = 8, COUNT = 16 };
 
-static inline span span_begin(const el_triangle *triangle, int32_t x, loop_kind kind)
+static inline span span_begin(const el_triangle *triangle, int32_t x, unsigned kind)
 {
     span s = {0};
-    if (kind.depth) {
+    if ((kind & DEPTH) != 0) {
         s.z = stepped_at(&triangle->planes[EL_PLANE_Z], x, HALF_Q16);
     }
-    if (kind.colours) {
-        const el_plane *planes = &triangle->planes[kind.texture ? EL_PLANE_LIGHT_RED : EL_PLANE_RED];
+    if ((kind & COLOURS) != 0) {
+        const el_plane *planes = &triangle->planes[(kind & TEXTURE) != 0 ? EL_PLANE_LIGHT_RED : EL_PLANE_RED];
         for (unsigned i = 0; i < 3; i++) {
             s.rgb[i] = stepped_at(&planes[i], x, HALF_Q24);
         }
@@ -49,12 +46,12 @@ static inline span span_begin(const el_triangle *triangle, int32_t x, loop_kind 
     return s;
 }
 
-static inline void span_step(span *s, loop_kind kind)
+static inline void span_step(span *s, unsigned kind)
 {
-    if (kind.depth) {
+    if ((kind & DEPTH) != 0) {
         s->z.value += s->z.step;
     }
-    if (kind.colours) {
+    if ((kind & COLOURS) != 0) {
         for (unsigned i = 0; i < 3; i++) {
             s->rgb[i].value += s->rgb[i].step;
         }
@@ -68,27 +65,39 @@ static inline uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint3
     return texture->texels[(line << texture->width_log2) + column];
 }
 
-/* Each channel of the texel times light / 255, where 255 leaves it as it is. */
-static inline uint16_t modulate(uint16_t texel, const stepped light[3])
+/* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
+ * by the smallest threshold. */
+static inline uint32_t fraction_q16(uint32_t plus_half_q24)
 {
-    const uint32_t red = ((texel >> 11) * ((light[0].value >> 24) + 1U)) >> 8;
-    const uint32_t green = (((texel >> 5) & 63U) * ((light[1].value >> 24) + 1U)) >> 8;
-    const uint32_t blue = ((texel & 31U) * ((light[2].value >> 24) + 1U)) >> 8;
-    return (uint16_t)((red << 11) | (green << 5) | blue);
+    return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
 }
 
-static inline uint16_t span_colour(const span *s, const el_triangle *triangle, loop_kind kind)
+/* Each channel of the texel times light / 255, where 255 leaves it as it is. */
+static inline uint16_t modulate(uint16_t texel, const stepped light[3], uint32_t threshold_q16, unsigned kind)
 {
-    if (kind.colours) {
-        return (uint16_t)((s->rgb[0].value >> 27 << 11) | (s->rgb[1].value >> 26 << 5) | s->rgb[2].value >> 27);
+    const uint32_t channels[3] = {texel >> 11, (texel >> 5) & 63U, texel & 31U};
+    uint32_t lit[3];
+    for (unsigned i = 0; i < 3; i++) {
+        lit[i] = (kind & DITHER) != 0 ? el_dither(fraction_q16(light[i].value), channels[i], threshold_q16)
+                                      : (channels[i] * ((light[i].value >> 24) + 1U)) >> 8;
     }
-    return triangle->surface.colour;
+    return (uint16_t)((lit[0] << 11) | (lit[1] << 5) | lit[2]);
+}
+
+static inline uint16_t coloured(const stepped rgb[3], uint32_t threshold_q16, unsigned kind)
+{
+    if ((kind & DITHER) != 0) {
+        return (uint16_t)(el_dither(fraction_q16(rgb[0].value), 31, threshold_q16) << 11 |
+                          el_dither(fraction_q16(rgb[1].value), 63, threshold_q16) << 5 |
+                          el_dither(fraction_q16(rgb[2].value), 31, threshold_q16));
+    }
+    return (uint16_t)((rgb[0].value >> 27 << 11) | (rgb[1].value >> 26 << 5) | rgb[2].value >> 27);
 }
 
 /* Whether the pixel is drawn; its depth is stored then. */
-static inline bool passes(const span *s, uint16_t *depth, loop_kind kind)
+static inline bool passes(const span *s, uint16_t *depth, unsigned kind)
 {
-    if (!kind.depth) {
+    if ((kind & DEPTH) == 0) {
         return true;
     }
     const uint32_t z = s->z.value >> 16;
@@ -99,34 +108,45 @@ static inline bool passes(const span *s, uint16_t *depth, loop_kind kind)
     return true;
 }
 
-/* Pixels [x, x_end) of one row, in one colour or in the vertices' colours. */
-static inline void draw_coloured(const el_triangle *triangle, uint16_t *colour, uint16_t *depth, int32_t x,
-                                 int32_t x_end, loop_kind kind)
+/* The pixels of a row: where they are and where they go. */
+typedef struct row {
+    uint16_t *colour;
+    uint16_t *depth;
+    int32_t x, x_end;
+} row;
+
+/* In one colour or in the vertices' colours. */
+static inline void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
 {
-    span s = span_begin(triangle, x, kind);
-    for (; x < x_end; x++) {
-        if (passes(&s, &depth[x], kind)) {
-            colour[x] = span_colour(&s, triangle, kind);
+    span s = span_begin(triangle, r.x, kind);
+    for (int32_t x = r.x; x < r.x_end; x++) {
+        if (passes(&s, &r.depth[x], kind)) {
+            r.colour[x] = (kind & COLOURS) != 0
+                              ? coloured(s.rgb, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
+                              : triangle->surface.colour;
         }
         span_step(&s, kind);
     }
 }
 
-/* The same with a texture, in pieces along which texture coordinates are linear. */
-static inline void draw_textured(const el_triangle *triangle, uint16_t *colour, uint16_t *depth, int32_t x,
-                                 int32_t x_end, loop_kind kind)
+/* With a texture, in pieces along which texture coordinates are linear. */
+static inline void draw_textured(const el_triangle *triangle, row r, unsigned kind)
 {
-    span s = span_begin(triangle, x, kind);
+    span s = span_begin(triangle, r.x, kind);
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, x);
-    while (x < x_end) {
-        const int32_t length = el_texture_walk_piece(&walk, triangle, x_end - x);
+    el_texture_walk_begin(&walk, triangle, r.x);
+    int32_t x = r.x;
+    while (x < r.x_end) {
+        const int32_t length = el_texture_walk_piece(&walk, triangle, r.x_end - x);
         uint32_t u_q16 = (uint32_t)walk.u_q16;
         uint32_t v_q16 = (uint32_t)walk.v_q16;
         for (const int32_t piece_end = x + length; x < piece_end; x++) {
-            if (passes(&s, &depth[x], kind)) {
+            if (passes(&s, &r.depth[x], kind)) {
                 const uint16_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
-                colour[x] = kind.colours ? modulate(texel, s.rgb) : texel;
+                r.colour[x] =
+                    (kind & COLOURS) != 0
+                        ? modulate(texel, s.rgb, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
+                        : texel;
             }
             span_step(&s, kind);
             u_q16 += (uint32_t)walk.u_step_q16;
@@ -137,10 +157,10 @@ static inline void draw_textured(const el_triangle *triangle, uint16_t *colour, 
 }
 
 /* Overdraw: the picture counts. */
-static void count_span(uint16_t *colour, int32_t x, int32_t x_end)
+static void draw_count(row r)
 {
-    for (; x < x_end; x++) {
-        colour[x]++;
+    for (int32_t x = r.x; x < r.x_end; x++) {
+        r.colour[x]++;
     }
 }
 
@@ -158,82 +178,78 @@ static void next_row(el_triangle *triangle)
     }
 }
 
-static inline void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, loop_kind kind,
-                             bool count)
+static inline void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     const int32_t y_end = triangle->y_end < target->y_end ? triangle->y_end : target->y_end;
     while (triangle->y < y_end) {
-        int32_t x = triangle->edges[0].x;
-        int32_t x_end = triangle->edges[1].x;
-        x = x < 0 ? 0 : x;
-        x_end = x_end > target->width ? target->width : x_end;
+        const int32_t offset = (triangle->y - target->y) * target->width;
+        const int32_t left = triangle->edges[0].x;
+        const int32_t right = triangle->edges[1].x;
+        const row r = {
+            .colour = target->colour + offset,
+            .depth = target->depth + ((kind & DEPTH) != 0 ? offset : 0),
+            .x = left < 0 ? 0 : left,
+            .x_end = right > target->width ? target->width : right,
+        };
         stats->rows++;
-        if (x < x_end) {
-            const int32_t row = (triangle->y - target->y) * target->width;
+        if (r.x < r.x_end) {
             stats->spans++;
-            stats->pixels += (uint32_t)(x_end - x);
-            if (count) {
-                count_span(target->colour + row, x, x_end);
-            } else if (kind.texture) {
-                draw_textured(triangle, target->colour + row, target->depth + row, x, x_end, kind);
+            stats->pixels += (uint32_t)(r.x_end - r.x);
+            if ((kind & COUNT) != 0) {
+                draw_count(r);
+            } else if ((kind & TEXTURE) != 0) {
+                draw_textured(triangle, r, kind);
             } else {
-                draw_coloured(triangle, target->colour + row, target->depth + row, x, x_end, kind);
+                draw_coloured(triangle, r, kind);
             }
         }
         next_row(triangle);
     }
 }
 
-static loop_kind kind_of(const el_surface *surface)
+static unsigned kind_of(const el_surface *surface)
 {
-    return (loop_kind){
-        .depth = surface->depth,
-        .colours = surface->shading == EL_SHADE_GOURAUD || surface->shading == EL_SHADE_TEXTURED_GOURAUD,
-        .texture = surface->shading == EL_SHADE_TEXTURED || surface->shading == EL_SHADE_TEXTURED_GOURAUD,
+    static const uint8_t kinds[] = {
+        [EL_SHADE_FLAT] = 0,           [EL_SHADE_GOURAUD] = COLOURS,
+        [EL_SHADE_TEXTURED] = TEXTURE, [EL_SHADE_TEXTURED_GOURAUD] = TEXTURE | COLOURS,
+        [EL_SHADE_OVERDRAW] = COUNT,
     };
+    const unsigned kind = kinds[surface->shading];
+    const bool dithers = surface->dither && (kind & COLOURS) != 0;
+    const bool depth = surface->depth && (kind & COUNT) == 0;
+    return kind | (dithers ? DITHER : 0U) | (depth ? DEPTH : 0U);
 }
+
+/* A loop of its own for each kind there is. */
+#define DRAW(kind)                                                                                                     \
+    case (kind):                                                                                                       \
+        draw_rows(triangle, target, stats, (kind));                                                                    \
+        break
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
-    const bool depth = triangle->surface.depth;
-    switch (triangle->surface.shading) {
-    case EL_SHADE_FLAT:
-        if (depth) {
-            draw_rows(triangle, target, stats, (loop_kind){.depth = true}, false);
-        } else {
-            draw_rows(triangle, target, stats, (loop_kind){.depth = false}, false);
-        }
-        break;
-    case EL_SHADE_GOURAUD:
-        if (depth) {
-            draw_rows(triangle, target, stats, (loop_kind){.depth = true, .colours = true}, false);
-        } else {
-            draw_rows(triangle, target, stats, (loop_kind){.colours = true}, false);
-        }
-        break;
-    case EL_SHADE_TEXTURED:
-        if (depth) {
-            draw_rows(triangle, target, stats, (loop_kind){.depth = true, .texture = true}, false);
-        } else {
-            draw_rows(triangle, target, stats, (loop_kind){.texture = true}, false);
-        }
-        break;
-    case EL_SHADE_TEXTURED_GOURAUD:
-        if (depth) {
-            draw_rows(triangle, target, stats, (loop_kind){.depth = true, .colours = true, .texture = true}, false);
-        } else {
-            draw_rows(triangle, target, stats, (loop_kind){.colours = true, .texture = true}, false);
-        }
-        break;
-    case EL_SHADE_OVERDRAW:
-        draw_rows(triangle, target, stats, (loop_kind){.depth = false}, true);
+    switch (kind_of(&triangle->surface)) {
+        DRAW(0);
+        DRAW(DEPTH);
+        DRAW(COLOURS);
+        DRAW(COLOURS | DEPTH);
+        DRAW(COLOURS | DITHER);
+        DRAW(COLOURS | DITHER | DEPTH);
+        DRAW(TEXTURE);
+        DRAW(TEXTURE | DEPTH);
+        DRAW(TEXTURE | COLOURS);
+        DRAW(TEXTURE | COLOURS | DEPTH);
+        DRAW(TEXTURE | COLOURS | DITHER);
+        DRAW(TEXTURE | COLOURS | DITHER | DEPTH);
+        DRAW(COUNT);
+    default:
         break;
     }
 }
 
 void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample)
 {
-    const loop_kind kind = kind_of(&triangle->surface);
+    const unsigned kind = kind_of(&triangle->surface);
     const int32_t begin = triangle->edges[0].x < 0 ? 0 : triangle->edges[0].x;
     const int32_t end = triangle->edges[1].x > width ? width : triangle->edges[1].x;
     span s = span_begin(triangle, begin, kind);
@@ -244,7 +260,7 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
     for (unsigned i = 0; i < 3; i++) {
         sample->rgb_plus_half_q24[i] = s.rgb[i].value;
     }
-    if (!kind.texture) {
+    if ((kind & TEXTURE) == 0) {
         return;
     }
     el_texture_walk walk;

@@ -39,6 +39,7 @@ typedef struct el_corner {
 typedef struct el_surface {
     el_shading shading;
     bool depth;                /* test and write depth */
+    bool dither;               /* Gouraud and textured times Gouraud */
     uint16_t colour;           /* flat: RGB565 */
     uint8_t uv_error_log2;     /* textured: u and v are within 2^-uv_error_log2 texels; 1..5 */
     const el_texture *texture; /* textured */

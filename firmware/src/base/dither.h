@@ -1,0 +1,32 @@
+/* Ordered dithering: fewer levels per pixel, the right mean over each 4x4 block of the screen.
+ *
+ * Bayer, "An optimum method for two-level rendition of continuous-tone pictures", ICC 1973: a pixel's threshold depends on
+ * its place only. A value between two levels is rounded up where its fraction exceeds the threshold; the 16 thresholds are
+ * the middles of sixteenths, so the mean over a block is within 1/32 of a level of the value. */
+#ifndef EL_BASE_DITHER_H
+#define EL_BASE_DITHER_H
+
+#include <stdint.h>
+
+/* The threshold of pixel (x, y) as a fraction of a level, Q16: (2 k + 1) / 32 for k = 0..15. */
+static inline uint32_t el_dither_threshold_q16(uint32_t x, uint32_t y)
+{
+    static const uint8_t order[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return ((uint32_t)order[y & 3U][x & 3U] << 12) + 2048U;
+}
+
+/* A value, 0..1 in Q16 (65536 is full), as one of `levels` + 1 levels, 0..levels. levels <= 255. */
+static inline uint32_t el_dither(uint32_t value_q16, uint32_t levels, uint32_t threshold_q16)
+{
+    return (value_q16 * levels + threshold_q16) >> 16; /* below 2^24 + 2^16 */
+}
+
+/* One line of RGB565 as 4-bit grey, two pixels per byte, the left one in the upper half; luma by ITU-R BT.601, 3.5.1:
+ * 0.299 R + 0.587 G + 0.114 B. `grey` takes (width + 1) / 2 bytes; `y` is the line on the screen. */
+void el_dither_grey4(uint8_t *grey, const uint16_t *rgb565, uint32_t width, uint32_t y);
+
+/* One line of RGB565 as single bits, 1 is light, the left pixel in the highest bit; `bits` takes (width + 7) / 8 bytes.
+ * With one bit and 16 thresholds, a block's mean is within 1/32 of white, 8 of 255: no pattern of 16 pixels is nearer. */
+void el_dither_mono(uint8_t *bits, const uint16_t *rgb565, uint32_t width, uint32_t y);
+
+#endif
