@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from reference_coverage import GUARD
-from sim_commands import SUBPIXELS, Ints
+from sim_commands import SIXTEENTH, SUBPIXELS, Ints
 
 Generator = Callable[[np.random.Generator, int, int, int], Ints]
 
@@ -40,12 +40,16 @@ def on_screen(rng: np.random.Generator, count: int, width: int, height: int) -> 
 
 def small(rng: np.random.Generator, count: int, width: int, height: int) -> Ints:
     """The many small triangles of a mesh: up to 12 px."""
-    return _points(rng, count, width, height, 0)[:, np.newaxis] + rng.integers(-96, 97, (count, 3, 2))
+    return _points(rng, count, width, height, 0)[:, np.newaxis] + rng.integers(
+        -96 * SIXTEENTH, 96 * SIXTEENTH + 1, (count, 3, 2)
+    )
 
 
 def tiny(rng: np.random.Generator, count: int, width: int, height: int) -> Ints:
     """Less than two pixels; many have no sample."""
-    return _points(rng, count, width, height, 0)[:, np.newaxis] + rng.integers(-16, 17, (count, 3, 2))
+    return _points(rng, count, width, height, 0)[:, np.newaxis] + rng.integers(
+        -16 * SIXTEENTH, 16 * SIXTEENTH + 1, (count, 3, 2)
+    )
 
 
 def slivers(rng: np.random.Generator, count: int, width: int, height: int) -> Ints:
@@ -82,7 +86,7 @@ def near_misses(rng: np.random.Generator, count: int, width: int, height: int) -
     """One edge passes a pixel's centre with an edge value of exactly -1, 0 or 1, in 1/256 px^2."""
     made = []
     for centre in _centres(rng, count, width, height):
-        reach = int(rng.choice([40, 400, 4000]))
+        reach = int(rng.choice([40, 400, 4000]) * SIXTEENTH)
         dx, dy = (int(v) for v in rng.integers(-reach, reach + 1, 2))
         divisor, s, t = _bezout(dx, dy)
         if divisor == 0:
@@ -91,7 +95,7 @@ def near_misses(rng: np.random.Generator, count: int, width: int, height: int) -
         direction = np.array([dx, dy])
         value = int(rng.integers(-1, 2))
         if value == 0:  # the centre lies on the edge, a few whole steps from both ends
-            before, after = (int(v) for v in rng.integers(1, max(2, 3000 // max(abs(dx), abs(dy))), 2))
+            before, after = (int(v) for v in rng.integers(1, max(2, 3000 * SIXTEENTH // max(abs(dx), abs(dy))), 2))
             start, end = centre - before * direction, centre + after * direction
         else:  # start to centre is value * (-t, s) and a multiple of the edge: E = value * (dx s + dy t) = value
             beside = np.array([-t, s]) * value
@@ -133,7 +137,7 @@ def axis_aligned(rng: np.random.Generator, count: int, width: int, height: int) 
 def zero_area(rng: np.random.Generator, count: int, width: int, height: int) -> Ints:
     """Three corners on one line, or two or three of them the same; many pass through pixel centres."""
     start = _centres(rng, count, width, height)
-    step = rng.integers(-40, 41, (count, 2))
+    step = rng.integers(-40, 41, (count, 2)) * SIXTEENTH
     factors = rng.integers(-12, 13, (count, 3, 1))
     return np.asarray(start[:, np.newaxis] + step[:, np.newaxis] * factors)
 
@@ -142,11 +146,11 @@ def outside(rng: np.random.Generator, count: int, width: int, height: int) -> In
     """Beside the target, or touching its border within half a pixel."""
     size = np.array([width, height]) * SUBPIXELS
     depth = np.where(rng.random((count, 1, 1)) < 0.5, 1000, 14)
-    corners = rng.integers(0, depth, (count, 3, 2)) - 10
+    corners = (rng.integers(0, depth, (count, 3, 2)) - 10) * SIXTEENTH
     side = rng.integers(0, 4, count)
     axis = side // 2
     other = (np.arange(count), slice(None), 1 - axis)
-    corners[other] = rng.integers(-400, size[1 - axis][:, np.newaxis] + 400, (count, 3))
+    corners[other] = rng.integers(-400 * SIXTEENTH, size[1 - axis][:, np.newaxis] + 400 * SIXTEENTH, (count, 3))
     along = corners[np.arange(count), :, axis]
     beyond = size[axis][:, np.newaxis] + along
     corners[np.arange(count), :, axis] = np.where((side % 2 == 0)[:, np.newaxis], -along, beyond)
@@ -194,8 +198,8 @@ def fan(rng: np.random.Generator, width: int, height: int, corners: int, radius:
 
 def jittered_grid(rng: np.random.Generator, width: int, height: int, cells: int) -> Ints:
     """A mesh of cells x cells x 2 triangles that covers the whole target and more, inner corners moved by chance."""
-    steps_x = np.linspace(-64, width * SUBPIXELS + 64, cells + 1)
-    steps_y = np.linspace(-64, height * SUBPIXELS + 64, cells + 1)
+    steps_x = np.linspace(-4 * SUBPIXELS, (width + 4) * SUBPIXELS, cells + 1)
+    steps_y = np.linspace(-4 * SUBPIXELS, (height + 4) * SUBPIXELS, cells + 1)
     points = np.stack(np.meshgrid(steps_x, steps_y), axis=2)
     room = np.array([steps_x[1] - steps_x[0], steps_y[1] - steps_y[0]]) * 0.24
     points[1:-1, 1:-1] += rng.uniform(-1, 1, points[1:-1, 1:-1].shape) * room

@@ -22,6 +22,9 @@ Ints = npt.NDArray[np.int64]
 SUBPIXELS = int(os.environ.get("EDGELINE_SUBPIXELS", "16"))
 """Screen coordinates are integers of 1/16 pixel, or of 1/64 or 1/256 where the simulator was built so."""
 
+SIXTEENTH = SUBPIXELS // 16
+"""1/16 pixel in that unit."""
+
 VERTEX = np.dtype(
     [("x", "<i4"), ("y", "<i4"), ("z", "<u2"), ("w", "<u2"), ("uv", "<i2", (2,)), ("rgb", "u1", (3,)), ("pad", "u1")]
 )

@@ -8,7 +8,7 @@ import pytest
 import reference_coverage
 from explain_triangle import explain
 from hard_triangles import KINDS, fan, jittered_grid, rng_for, triangles_of
-from sim_commands import Ints, Simulator
+from sim_commands import SUBPIXELS, Ints, Simulator
 
 SIZES = {(320, 240): 4400, (240, 320): 1600, (33, 200): 1600, (7, 5): 1600, (1, 1): 1000, (2040, 9): 300}
 """Targets, and how many triangles of each kind are drawn on them: 115,500 in all."""
@@ -78,9 +78,9 @@ def test_fans_larger_than_the_screen_cover_all_of_it_once(simulator: Simulator, 
     for case in range(10):
         rng = rng_for("large fan", corners, case)
         angles = (np.arange(corners) + rng.uniform(0, 0.2)) * (2 * np.pi / corners)
-        rim = np.rint(24000 * np.stack([np.cos(angles), np.sin(angles)], axis=1)).astype(np.int64)
-        rim += np.array([width * 8, height * 8])
-        hub = rng.integers(0, [width * 16, height * 16])
+        rim = np.rint(1500 * SUBPIXELS * np.stack([np.cos(angles), np.sin(angles)], axis=1)).astype(np.int64)
+        rim += np.array([width, height]) * (SUBPIXELS // 2)
+        hub = rng.integers(0, [width * SUBPIXELS, height * SUBPIXELS])
         triangles = np.stack([np.broadcast_to(hub, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
         assert simulator.coverage(triangles, width, height)[0].sum() == width * height
 

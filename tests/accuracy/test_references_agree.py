@@ -12,6 +12,7 @@ import reference_coverage
 from hard_triangles import KINDS, triangles_of
 from reference_attributes import exact, rounded_depth
 from reference_coverage import covers_by_definition
+from sim_commands import SUBPIXELS
 from test_attributes import FILLINGS, questions
 from test_coverage_is_exact import _areas
 
@@ -43,8 +44,8 @@ def test_near_misses_are_near() -> None:
     """At least nine in ten have an edge value of -1, 0 or 1 at some pixel's centre."""
     hits = np.zeros(3, np.int64)
     triangles = triangles_of("near_misses", "near", 300, 320, 240)
-    x = np.arange(320) * 16 + 8
-    y = (np.arange(240) * 16 + 8)[:, np.newaxis]
+    x = np.arange(320) * SUBPIXELS + SUBPIXELS // 2
+    y = (np.arange(240) * SUBPIXELS + SUBPIXELS // 2)[:, np.newaxis]
     for (ax, ay), (bx, by), _ in triangles:
         edge = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
         hits += [bool((edge == value).any()) for value in (-1, 0, 1)]
@@ -67,7 +68,7 @@ def test_attributes_are_those_of_the_plane_through_the_vertices(filling: str) ->
     vertices, samples = questions("on_screen", filling)
     for sample in samples[:: len(samples) // 100]:
         triangle = vertices[sample["triangle"]]
-        rows = [(Fraction(int(v["x"]), 16), Fraction(int(v["y"]), 16)) for v in triangle]
+        rows = [(Fraction(int(v["x"]), SUBPIXELS), Fraction(int(v["y"]), SUBPIXELS)) for v in triangle]
         rows.append((Fraction(2 * int(sample["x"]) + 1, 2), Fraction(2 * int(sample["y"]) + 1, 2)))
         w = [int(v["w"]) for v in triangle]
         expected = [plane_at(rows, [int(v["z"]) for v in triangle])]
