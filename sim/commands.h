@@ -8,5 +8,6 @@ int el_command_memory(int argc, char **argv);
 int el_command_stream(int argc, char **argv);
 int el_command_coverage(int argc, char **argv);
 int el_command_attributes(int argc, char **argv);
+int el_command_methods(int argc, char **argv);
 
 #endif

@@ -106,6 +106,7 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
         .height = config->height,
         .band_lines = config->band_lines,
         .background = config->background,
+        .uv_error_log2 = config->uv_error_log2,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
         .sinks = {&machine->panel_sink, &machine->depth_sink, config->extra_sink},

@@ -16,6 +16,7 @@ typedef struct el_machine_config {
     uint16_t height;
     uint16_t band_lines;
     uint16_t background;       /* RGB565 */
+    uint8_t uv_error_log2;     /* as el_config has it */
     size_t arena_bytes;        /* 0: what EL_MEMORY_BYTES says for EL_MACHINE_VERTICES and EL_MACHINE_TRIANGLES */
     const el_sink *extra_sink; /* beside the panel and the depth; NULL: none */
 } el_machine_config;

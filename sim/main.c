@@ -13,15 +13,17 @@ static const struct {
     {"list", el_command_list, ""},
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm] [--size WxH] [--band N] [--arena BYTES]\n"
-     "               [--frames N] [--png FILE] [--raw FILE] [--depth FILE] [--crc] [--stats]\n"
+     "               [--uv-error 2|4|8|16|32] [--frames N] [--png FILE] [--raw FILE] [--depth FILE]\n"
+     "               [--crc] [--stats]\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
      "               [--shading flat|gouraud|textured]"},
     {"stream", el_command_stream,
-     "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--baud RATE]\n"
-     "               (--pty | --tcp PORT | --stdout) [--frames N]"},
+     "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N]\n"
+     "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE]"},
     {"memory", el_command_memory, "[--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]"},
     {"coverage", el_command_coverage, "IN OUT"},
     {"attributes", el_command_attributes, "IN OUT"},
+    {"methods", el_command_methods, "[--seed N] [--count N] [--json FILE] [--csv FILE] [--png FILE]"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -1,124 +1,79 @@
 /* render: frames into files, checksums and counters. */
-#include <getopt.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/crc32.h"
 #include "commands.h"
+#include "common_options.h"
 #include "files.h"
 #include "machine.h"
-#include "options.h"
 #include "png_file.h"
 #include "report.h"
 #include "subject.h"
 
 typedef struct render_options {
-    el_subject_options subject;
-    el_machine_config machine;
-    long frames;
+    el_common_options common;
     const char *png, *raw, *depth;
     bool crc, stats;
 } render_options;
 
+/* An option that only keeps its text: where that goes, or NULL for any other option. */
+static const char **text_of(render_options *o, int which)
+{
+    enum { MESH = EL_OPTION_OWN };
+    const char **const places[] = {
+        &o->common.subject.mesh,
+        &o->png,
+        &o->raw,
+        &o->depth,
+        &o->common.subject.eye,
+        &o->common.subject.look_at,
+        &o->common.subject.fov,
+        &o->common.subject.near,
+        &o->common.subject.far,
+        &o->common.subject.shading,
+    };
+    const int index = which - MESH;
+    return index >= 0 && index < (int)(sizeof places / sizeof places[0]) ? places[index] : NULL;
+}
+
 static bool parse(int argc, char **argv, render_options *o)
 {
-    enum {
-        SCENE = 1,
-        MESH,
-        SIZE,
-        BAND,
-        ARENA,
-        FRAMES,
-        PNG_FILE,
-        RAW,
-        DEPTH,
-        CRC,
-        STATS,
-        EYE,
-        LOOK_AT,
-        FOV,
-        NEAR,
-        FAR,
-        SHADING
-    };
+    /* In the order of text_of. */
+    enum { MESH = EL_OPTION_OWN, PNG_FILE, RAW, DEPTH, EYE, LOOK_AT, FOV, NEAR, FAR, SHADING, CRC, STATS };
     static const struct option options[] = {
-        {"scene", required_argument, NULL, SCENE},     {"mesh", required_argument, NULL, MESH},
-        {"size", required_argument, NULL, SIZE},       {"band", required_argument, NULL, BAND},
-        {"arena", required_argument, NULL, ARENA},     {"frames", required_argument, NULL, FRAMES},
-        {"png", required_argument, NULL, PNG_FILE},    {"raw", required_argument, NULL, RAW},
-        {"depth", required_argument, NULL, DEPTH},     {"crc", no_argument, NULL, CRC},
-        {"stats", no_argument, NULL, STATS},           {"eye", required_argument, NULL, EYE},
-        {"look-at", required_argument, NULL, LOOK_AT}, {"fov", required_argument, NULL, FOV},
-        {"near", required_argument, NULL, NEAR},       {"far", required_argument, NULL, FAR},
-        {"shading", required_argument, NULL, SHADING}, {NULL, 0, NULL, 0},
+        EL_COMMON_OPTIONS,
+        {"mesh", required_argument, NULL, MESH},
+        {"png", required_argument, NULL, PNG_FILE},
+        {"raw", required_argument, NULL, RAW},
+        {"depth", required_argument, NULL, DEPTH},
+        {"eye", required_argument, NULL, EYE},
+        {"look-at", required_argument, NULL, LOOK_AT},
+        {"fov", required_argument, NULL, FOV},
+        {"near", required_argument, NULL, NEAR},
+        {"far", required_argument, NULL, FAR},
+        {"shading", required_argument, NULL, SHADING},
+        {"crc", no_argument, NULL, CRC},
+        {"stats", no_argument, NULL, STATS},
+        {NULL, 0, NULL, 0},
     };
-    *o = (render_options){.machine = {.width = 320, .height = 240}, .frames = 1};
-    const char *band = NULL;
-    long value;
+    *o = (render_options){.common = el_common_options_default(1)};
     int which;
     optind = 0; /* argv begins with the first argument's predecessor, see el_command_render */
     opterr = 0;
     while ((which = getopt_long(argc, argv, "+", options, NULL)) != -1) {
-        bool good = true;
-        switch (which) {
-        case SCENE:
-            o->subject.scene = optarg;
-            break;
-        case MESH:
-            o->subject.mesh = optarg;
-            break;
-        case SIZE:
-            good = el_option_size("--size", optarg, &o->machine.width, &o->machine.height);
-            break;
-        case BAND:
-            band = optarg;
-            break;
-        case ARENA:
-            good = el_option_integer("--arena", optarg, 1, 1L << 28, &value);
-            o->machine.arena_bytes = good ? (size_t)value : 0;
-            break;
-        case FRAMES:
-            good = el_option_integer("--frames", optarg, 1, INT_MAX, &o->frames);
-            break;
-        case PNG_FILE:
-            o->png = optarg;
-            break;
-        case RAW:
-            o->raw = optarg;
-            break;
-        case DEPTH:
-            o->depth = optarg;
-            break;
-        case CRC:
-            o->crc = true;
-            break;
-        case STATS:
-            o->stats = true;
-            break;
-        case EYE:
-            o->subject.eye = optarg;
-            break;
-        case LOOK_AT:
-            o->subject.look_at = optarg;
-            break;
-        case FOV:
-            o->subject.fov = optarg;
-            break;
-        case NEAR:
-            o->subject.near = optarg;
-            break;
-        case FAR:
-            o->subject.far = optarg;
-            break;
-        case SHADING:
-            o->subject.shading = optarg;
-            break;
-        default:
+        const char **const text = text_of(o, which);
+        if (which == '?') {
             el_report("render: '%s' is unknown or lacks its value", argv[optind - 1]);
-            good = false;
+            return false;
         }
-        if (!good) {
+        if (text != NULL) {
+            *text = optarg;
+        } else if (which == CRC) {
+            o->crc = true;
+        } else if (which == STATS) {
+            o->stats = true;
+        } else if (!el_common_options_take(&o->common, which, optarg)) {
             return false;
         }
     }
@@ -126,10 +81,7 @@ static bool parse(int argc, char **argv, render_options *o)
         el_report("render: '%s' is no option", argv[optind]);
         return false;
     }
-    if (!el_option_band(band, o->machine.height, &o->machine.band_lines)) {
-        return false;
-    }
-    return true;
+    return el_common_options_check(&o->common);
 }
 
 static const char *const stat_names[] = {
@@ -197,8 +149,8 @@ static bool open_outputs(outputs *out, const render_options *o)
 
 static bool render_frames(const render_options *o, const el_subject *subject, el_machine *machine, outputs *out)
 {
-    const size_t pixels = (size_t)o->machine.width * o->machine.height;
-    for (uint32_t frame = 0; frame < (uint32_t)o->frames; frame++) {
+    const size_t pixels = (size_t)o->common.machine.width * o->common.machine.height;
+    for (uint32_t frame = 0; frame < (uint32_t)o->common.frames; frame++) {
         const el_status status = el_subject_play(subject, frame, &machine->renderer);
         if (status != EL_OK) {
             el_report("frame %u: %s", frame, el_machine_message(status));
@@ -221,7 +173,7 @@ static bool render_frames(const render_options *o, const el_subject *subject, el
         }
     }
     if (out->png.stream != NULL &&
-        !el_png_write(out->png.stream, machine->picture, o->machine.width, o->machine.height)) {
+        !el_png_write(out->png.stream, machine->picture, o->common.machine.width, o->common.machine.height)) {
         el_report("cannot write %s", o->png);
         return false;
     }
@@ -243,10 +195,10 @@ int el_command_render(int argc, char **argv)
     el_subject subject = {0};
     el_machine machine = {0};
     outputs out = {0};
-    bool good = el_subject_open(&subject, &o.subject);
+    bool good = el_subject_open(&subject, &o.common.subject);
     if (good) {
-        o.machine.background = el_subject_background(&subject);
-        good = el_machine_open(&machine, &o.machine) && open_outputs(&out, &o) &&
+        o.common.machine.background = el_subject_background(&subject);
+        good = el_machine_open(&machine, &o.common.machine) && open_outputs(&out, &o) &&
                render_frames(&o, &subject, &machine, &out);
     }
     if (good) {

@@ -1,12 +1,11 @@
 /* stream: the product with a serial link, sending what a board would send. */
-#include <getopt.h>
-#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "commands.h"
+#include "common_options.h"
 #include "machine.h"
 #include "options.h"
 #include "port_posix.h"
@@ -17,12 +16,10 @@
 typedef enum link_kind { LINK_NONE, LINK_PTY, LINK_TCP, LINK_STDOUT } link_kind;
 
 typedef struct stream_options {
-    el_subject_options subject;
-    el_machine_config machine;
+    el_common_options common; /* frames 0: until stopped */
     link_kind link;
     long tcp_port;
-    long frames; /* 0: until stopped */
-    long baud;   /* 0: as fast as the link goes */
+    long baud; /* 0: as fast as the link goes */
 } stream_options;
 
 static volatile sig_atomic_t stopped;
@@ -35,22 +32,16 @@ static void stop(int signal_number)
 
 static bool parse(int argc, char **argv, stream_options *o)
 {
-    enum { SCENE = 1, SIZE, BAND, ARENA, FRAMES, BAUD, PTY, TCP, STDOUT };
+    enum { BAUD = EL_OPTION_OWN, PTY, TCP, STDOUT };
     static const struct option options[] = {
-        {"scene", required_argument, NULL, SCENE},
-        {"size", required_argument, NULL, SIZE},
-        {"band", required_argument, NULL, BAND},
-        {"arena", required_argument, NULL, ARENA},
-        {"frames", required_argument, NULL, FRAMES},
+        EL_COMMON_OPTIONS,
         {"baud", required_argument, NULL, BAUD},
         {"pty", no_argument, NULL, PTY},
         {"tcp", required_argument, NULL, TCP},
         {"stdout", no_argument, NULL, STDOUT},
         {NULL, 0, NULL, 0},
     };
-    *o = (stream_options){.machine = {.width = 320, .height = 240}};
-    const char *band = NULL;
-    long value;
+    *o = (stream_options){.common = el_common_options_default(0)};
     int which;
     int links = 0;
     optind = 0;
@@ -58,22 +49,6 @@ static bool parse(int argc, char **argv, stream_options *o)
     while ((which = getopt_long(argc, argv, "+", options, NULL)) != -1) {
         bool good = true;
         switch (which) {
-        case SCENE:
-            o->subject.scene = optarg;
-            break;
-        case SIZE:
-            good = el_option_size("--size", optarg, &o->machine.width, &o->machine.height);
-            break;
-        case BAND:
-            band = optarg;
-            break;
-        case ARENA:
-            good = el_option_integer("--arena", optarg, 1, 1L << 28, &value);
-            o->machine.arena_bytes = good ? (size_t)value : 0;
-            break;
-        case FRAMES:
-            good = el_option_integer("--frames", optarg, 1, INT_MAX, &o->frames);
-            break;
         case BAUD:
             good = el_option_integer("--baud", optarg, 1200, 100000000, &o->baud);
             break;
@@ -90,9 +65,12 @@ static bool parse(int argc, char **argv, stream_options *o)
             o->link = LINK_STDOUT;
             links++;
             break;
-        default:
+        case '?':
             el_report("stream: '%s' is unknown or lacks its value", argv[optind - 1]);
             good = false;
+            break;
+        default:
+            good = el_common_options_take(&o->common, which, optarg);
         }
         if (!good) {
             return false;
@@ -106,10 +84,7 @@ static bool parse(int argc, char **argv, stream_options *o)
         el_report("stream needs one of --pty, --tcp PORT and --stdout");
         return false;
     }
-    if (!el_option_band(band, o->machine.height, &o->machine.band_lines)) {
-        return false;
-    }
-    return true;
+    return el_common_options_check(&o->common);
 }
 
 static bool open_link(const stream_options *o, el_posix_port *port)
@@ -130,7 +105,7 @@ static bool play(const stream_options *o, const el_subject *subject, el_machine 
                  const el_port *link)
 {
     uint32_t frame = 0;
-    while (!stopped && (o->frames == 0 || frame < (uint32_t)o->frames)) {
+    while (!stopped && (o->common.frames == 0 || frame < (uint32_t)o->common.frames)) {
         if (el_stream_poll(stream) == EL_STREAM_LINK_GONE) {
             return true; /* the reader has what it wanted */
         }
@@ -154,12 +129,12 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
     const el_port link = el_posix_port_link(port);
     port->bytes_per_s = (uint32_t)(o->baud / 10); /* a start bit, 8 bits, a stop bit */
 
-    const size_t memory_bytes = EL_STREAM_MEMORY_BYTES(o->machine.width, o->machine.height);
+    const size_t memory_bytes = EL_STREAM_MEMORY_BYTES(o->common.machine.width, o->common.machine.height);
     uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT)];
     const el_stream_config config = {
         .port = &link,
-        .width = o->machine.width,
-        .height = o->machine.height,
+        .width = o->common.machine.width,
+        .height = o->common.machine.height,
         .target = "simulator",
         .firmware = "edgeline 0.1.0",
         .boot_id = (uint32_t)time(NULL) * 2654435761U ^ (uint32_t)getpid(),
@@ -173,7 +148,7 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
         return false;
     }
     const el_sink sink = el_stream_sink(&stream);
-    el_machine_config machine_config = o->machine;
+    el_machine_config machine_config = o->common.machine;
     machine_config.background = el_subject_background(subject);
     machine_config.extra_sink = &sink;
     el_machine machine = {0};
@@ -190,7 +165,7 @@ int el_command_stream(int argc, char **argv)
     }
     el_subject subject = {0};
     el_posix_port port = {0};
-    bool good = el_subject_open(&subject, &o.subject);
+    bool good = el_subject_open(&subject, &o.common.subject);
     if (good && open_link(&o, &port)) {
         fflush(stdout);
         const struct sigaction action = {.sa_handler = stop};

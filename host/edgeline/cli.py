@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import NoReturn
 
-from edgeline import discovery
+from edgeline import bench_plot, discovery
 from edgeline.convert.command import add_parser as add_convert_parser
 from edgeline.errors import EdgelineError, StreamEndError
 from edgeline.link import FRAME_TIMEOUT_S, HELLO_TIMEOUT_S, Link
@@ -93,6 +93,13 @@ def _parser() -> argparse.ArgumentParser:
     command.set_defaults(func=_record)
 
     add_convert_parser(commands)
+
+    command = commands.add_parser("bench", help="a chart of run time against error", epilog=EXIT_CODES)
+    command.add_argument(
+        "--plot", required=True, metavar="IN.json", help="what tests/bench/run --all wrote: accuracy_cost.json"
+    )
+    command.add_argument("-o", "--output", default="bench.png", metavar="OUT.png", help="default: bench.png")
+    command.set_defaults(func=_bench)
     return parser
 
 
@@ -264,6 +271,12 @@ def _record(options: argparse.Namespace) -> int:
         kept = f"; the {summary.frames} frames until then are in {options.output}" if summary.frames else ""
         print(f"edgeline: {failure}{kept}", file=sys.stderr)
         return failure.exit_code
+    return 0
+
+
+def _bench(options: argparse.Namespace) -> int:
+    bench_plot.draw(bench_plot.load(options.plot), options.output)
+    print(options.output)
     return 0
 
 

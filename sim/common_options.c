@@ -1,0 +1,58 @@
+#include "common_options.h"
+
+#include <limits.h>
+
+#include "options.h"
+#include "report.h"
+
+el_common_options el_common_options_default(long frames)
+{
+    return (el_common_options){.machine = {.width = 320, .height = 240}, .frames = frames};
+}
+
+/* 1/2 to 1/32 texel, given as 2 to 32. */
+static bool take_uv_error(el_common_options *options, const char *text)
+{
+    long value;
+    if (!el_option_integer("--uv-error", text, 2, 32, &value)) {
+        return false;
+    }
+    for (uint8_t log2 = 1; log2 <= 5; log2++) {
+        if (value == 1L << log2) {
+            options->machine.uv_error_log2 = log2;
+            return true;
+        }
+    }
+    el_report("--uv-error takes 2, 4, 8, 16 or 32, for 1/2 to 1/32 texel, not '%s'", text);
+    return false;
+}
+
+bool el_common_options_take(el_common_options *options, int which, const char *text)
+{
+    long value;
+    switch (which) {
+    case EL_OPTION_SCENE:
+        options->subject.scene = text;
+        return true;
+    case EL_OPTION_SIZE:
+        return el_option_size("--size", text, &options->machine.width, &options->machine.height);
+    case EL_OPTION_BAND:
+        options->band = text;
+        return true;
+    case EL_OPTION_ARENA:
+        if (!el_option_integer("--arena", text, 1, 1L << 28, &value)) {
+            return false;
+        }
+        options->machine.arena_bytes = (size_t)value;
+        return true;
+    case EL_OPTION_FRAMES:
+        return el_option_integer("--frames", text, 1, INT_MAX, &options->frames);
+    default:
+        return take_uv_error(options, text);
+    }
+}
+
+bool el_common_options_check(el_common_options *options)
+{
+    return el_option_band(options->band, options->machine.height, &options->machine.band_lines);
+}

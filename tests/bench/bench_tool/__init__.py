@@ -1,0 +1,1 @@
+"""Builds the measuring programs, runs them on emulated cores and here, scores them, and writes what came out."""

@@ -1,0 +1,224 @@
+"""Building and running the measuring programs: on a Cortex-M in QEMU, where executed instructions are counted, and on
+this computer, where time is taken."""
+
+from __future__ import annotations
+
+import bisect
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+BENCH = Path(__file__).resolve().parents[1]
+ROOT = BENCH.parents[1]
+
+# Core, and the QEMU machine that runs it: a Cortex-M3 runs what is compiled for a Cortex-M0+.
+CORES = {"cortex-m0plus": "mps2-an385", "cortex-m4f": "mps2-an386"}
+
+TOOLS = ("arm-none-eabi-gcc", "arm-none-eabi-nm", "qemu-system-arm", "cmake", "cc")
+RUN_TIMEOUT_S = 300
+
+
+class BenchError(Exception):
+    """What stops a measurement: one line that says what, where and what to do."""
+
+
+class MissingToolError(BenchError):
+    """A program that is not installed; the measurement is skipped then."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One measurement as its program printed it: the words before `crc`, and the named values after it."""
+
+    words: tuple[str, ...]
+    values: dict[str, str]
+
+    @property
+    def crc(self) -> str:
+        return self.values["crc"]
+
+
+@dataclass(frozen=True)
+class Measured:
+    line: Line
+    instructions: int
+
+
+def check_tools() -> None:
+    """Raises MissingToolError when a tool is not there."""
+    missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    if missing:
+        raise MissingToolError(
+            f"{', '.join(missing)} not found; on Debian: apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi "
+            "qemu-system-arm"
+        )
+
+
+def output_of(command: Sequence[str | Path], environment: dict[str, str] | None = None) -> str:
+    """Standard output of a command that must succeed. Raises BenchError with the last line that it complained with."""
+    try:
+        done = subprocess.run(
+            [str(word) for word in command],
+            capture_output=True,
+            text=True,
+            timeout=RUN_TIMEOUT_S,
+            check=False,
+            env={**os.environ, **(environment or {})},
+        )
+    except subprocess.TimeoutExpired:
+        raise BenchError(f"{Path(command[0]).name} did not end within {RUN_TIMEOUT_S} s: {command[-1]}") from None
+    if done.returncode != 0:
+        said = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+        errors = [line for line in said if re.search(r"\b(error|Error)\b", line)] or said[-1:]
+        line = errors[0].strip() if errors else "it said nothing"
+        raise BenchError(f"{' '.join(map(str, command[:3]))} ended with status {done.returncode}: {line}")
+    return done.stdout
+
+
+def compiler_version() -> str:
+    return output_of(["arm-none-eabi-gcc", "-dumpfullversion"]).strip()
+
+
+def qemu_version() -> str:
+    found = re.search(r"version ([\d.]+)", output_of(["qemu-system-arm", "--version"]))
+    return found.group(1) if found else "unknown"
+
+
+class Machines:
+    """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._configured: dict[str, Path] = {}
+
+    def native(self, program: str, keep: Path | None = None, bits: int = 4) -> list[Line]:
+        """The program's measurements on this computer; `keep` gets the files that it leaves."""
+        path = self._build("native", program, bits)
+        arguments: list[str | Path] = [path]
+        if keep is not None:
+            keep.mkdir(parents=True, exist_ok=True)
+            arguments.append(keep)
+        return parse_lines(output_of(arguments))
+
+    def simulator(self) -> Path:
+        """The simulator, built from the same sources."""
+        return self._build("native", "edgeline-sim", 4)
+
+    def target(self, core: str, program: str, bits: int = 4, profile: Path | None = None) -> list[Measured]:
+        """The program's measurements on a core, the cost of the markers taken off; `profile` gets the plugin's."""
+        elf = self._build(core, program, bits)
+        self._build("native", "count", 4)
+        plugin = self._tree("native", 4) / "libcount.so"
+        log, text = elf.with_suffix(".count"), elf.with_suffix(".text")
+        markers = ",".join(f"{name}=0x{address:x}" for name, address in marker_addresses(elf).items())
+        arguments = f"{markers},out={log}" + ("" if profile is None else f",profile={profile}")
+        output_of(
+            [
+                *("qemu-system-arm", "-M", CORES[core], "-kernel", elf),
+                *("-display", "none", "-monitor", "none", "-serial", "none"),
+                *("-chardev", f"file,id=text,path={text}"),
+                *("-semihosting-config", "enable=on,target=native,chardev=text"),
+                *("-plugin", f"{plugin},{arguments}"),
+            ]
+        )
+        return pair(parse_lines(text.read_text(encoding="ascii")), log.read_text(encoding="ascii"), core)
+
+    def profile(self, core: str, scene: str) -> dict[str, int]:
+        """Instructions of the scene's first frame, by function; inlined ones count for their caller. The calls that
+        check the picture are left out."""
+        elf = self._build(core, "scenes", 4)
+        path = elf.with_suffix(".profile")
+        names = [one.line.words[0] for one in self.target(core, "scenes", profile=path)]
+        if scene not in names:
+            raise BenchError(f"no scene '{scene}' is measured; there are {', '.join(dict.fromkeys(names))}")
+        # Before the first measurement come start-up and the empty one.
+        section = path.read_text(encoding="ascii").split("next\n")[names.index(scene) + 2]
+        functions = function_addresses(elf)
+        starts = [address for address, _ in functions]
+        found: dict[str, int] = {}
+        for row in section.splitlines():
+            address, count = row.split()
+            name = functions[bisect.bisect_right(starts, int(address, 16)) - 1][1]
+            if not name.startswith(("bench_", "sink_", "el_crc32", "print_")):
+                found[name] = found.get(name, 0) + int(count)
+        return dict(sorted(found.items(), key=lambda item: -item[1]))
+
+    def _tree(self, core: str, bits: int) -> Path:
+        return self.folder / (core if bits == 4 else f"{core}-{bits}")
+
+    def _build(self, core: str, program: str, bits: int) -> Path:
+        tree = self._tree(core, bits)
+        if str(tree) not in self._configured:
+            command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
+            command += ["-DCMAKE_C_FLAGS_RELEASE=-O2", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
+            if core != "native":
+                command += [f"-DCMAKE_TOOLCHAIN_FILE={BENCH / 'target' / 'toolchain.cmake'}", f"-DBENCH_CORE={core}"]
+            output_of(command)
+            self._configured[str(tree)] = tree
+        output_of(["cmake", "--build", tree, "--parallel", str(os.cpu_count() or 1), "--target", program])
+        return tree / (program if core == "native" else f"{program}.elf")
+
+
+def parse_lines(text: str) -> list[Line]:
+    """The measurements in a program's output: `WORD ... crc CRC NAME VALUE ...`."""
+    lines = []
+    for row in text.splitlines():
+        words = row.split()
+        if "crc" not in words:
+            raise BenchError(f"the measuring program says '{row}'")
+        at = words.index("crc")
+        lines.append(Line(tuple(words[:at]), dict(zip(words[at::2], words[at + 1 :: 2], strict=True))))
+    return lines
+
+
+def function_addresses(elf: Path) -> list[tuple[int, str]]:
+    """Functions in the order of their addresses."""
+    rows = [row.split() for row in output_of(["arm-none-eabi-nm", elf]).splitlines()]
+    return sorted((int(row[0], 16) & ~1, row[2]) for row in rows if len(row) == 3 and row[1] in "tTwW")
+
+
+def marker_addresses(elf: Path) -> dict[str, int]:
+    """The addresses of bench_next, bench_start and bench_stop."""
+    found = {}
+    for row in output_of(["arm-none-eabi-nm", elf]).splitlines():
+        address, *_, name = row.split()
+        if name in ("bench_next", "bench_start", "bench_stop"):
+            found[name.removeprefix("bench_")] = int(address, 16) & ~1
+    if len(found) != 3:
+        raise BenchError(f"{elf.name} has no markers; build it anew")
+    return found
+
+
+def count_stretches(log: str) -> list[tuple[int, int]]:
+    """For each measurement in a plugin's log: instructions from start to stop, summed, and how many such stretches."""
+    sums: list[tuple[int, int]] = []
+    started: int | None = None
+    for row in log.splitlines():
+        name, count = row.split()
+        if name == "next":
+            sums.append((0, 0))
+        elif name == "start":
+            started = int(count)
+        elif started is None or not sums:
+            raise BenchError(f"the count log has '{row}' before a start")
+        else:
+            total, stretches = sums[-1]
+            sums[-1] = (total + int(count) - started, stretches + 1)
+            started = None
+    return sums
+
+
+def pair(lines: list[Line], log: str, core: str) -> list[Measured]:
+    """Lines and counts of one run. The first measurement is empty: what it counts is in each stretch of the others."""
+    sums = count_stretches(log)
+    if len(lines) != len(sums) or not lines or lines[0].words[0] != "empty":
+        raise BenchError(f"{core}: {len(lines)} lines printed, {len(sums)} measurements counted")
+    overhead, _ = sums[0]
+    return [
+        Measured(line, total - overhead * stretches)
+        for line, (total, stretches) in zip(lines[1:], sums[1:], strict=True)
+    ]

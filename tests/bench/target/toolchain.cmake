@@ -1,0 +1,13 @@
+# A bare Arm core: cmake -DCMAKE_TOOLCHAIN_FILE=... -DBENCH_CORE=cortex-m0plus or cortex-m4f.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR arm)
+set(CMAKE_C_COMPILER arm-none-eabi-gcc)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES BENCH_CORE)
+if(BENCH_CORE STREQUAL "cortex-m0plus")
+    set(CMAKE_C_FLAGS_INIT "-mcpu=cortex-m0plus -mthumb")
+elseif(BENCH_CORE STREQUAL "cortex-m4f")
+    set(CMAKE_C_FLAGS_INIT "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16")
+else()
+    message(FATAL_ERROR "BENCH_CORE is '${BENCH_CORE}'; it must be cortex-m0plus or cortex-m4f")
+endif()
