@@ -56,3 +56,8 @@ bool el_common_options_check(el_common_options *options)
 {
     return el_option_band(options->band, options->machine.height, &options->machine.band_lines);
 }
+
+double el_common_options_aspect(const el_common_options *options)
+{
+    return (double)options->machine.width / options->machine.height;
+}

@@ -43,5 +43,7 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
 
 /* Checks what only fits or fails together; call it after the last option. False after one line on stderr. */
 bool el_common_options_check(el_common_options *options);
+/* Width of the picture over its height. */
+double el_common_options_aspect(const el_common_options *options);
 
 #endif

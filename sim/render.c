@@ -195,7 +195,7 @@ int el_command_render(int argc, char **argv)
     el_subject subject = {0};
     el_machine machine = {0};
     outputs out = {0};
-    bool good = el_subject_open(&subject, &o.common.subject);
+    bool good = el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common));
     if (good) {
         o.common.machine.background = el_subject_background(&subject);
         good = el_machine_open(&machine, &o.common.machine) && open_outputs(&out, &o) &&

@@ -99,6 +99,22 @@ static bool open_link(const stream_options *o, el_posix_port *port)
     }
 }
 
+/* After the last frame: closing a pty or a connection throws away what the host has not read, so wait for its ACK, or
+ * until the session ends because nothing comes. */
+static void wait_for_host(el_stream *stream, const el_port *link)
+{
+    if (!el_stream_flush(stream) || stream->config.one_way) {
+        return;
+    }
+    const uint8_t credits = stream->credits;
+    const uint32_t begin_us = link->micros(link->context);
+    while (!stopped && stream->state == EL_STREAM_RUNNING && stream->credits <= credits &&
+           link->micros(link->context) - begin_us < 2U * EL_STREAM_PATIENCE_US) {
+        (void)el_stream_poll(stream);
+        link->wait(link->context);
+    }
+}
+
 /* Renders when the host has credit for a frame, so that none is drawn for nobody and frame n of the stream is frame n of
  * the scene. */
 static bool play(const stream_options *o, const el_subject *subject, el_machine *machine, el_stream *stream,
@@ -120,7 +136,7 @@ static bool play(const stream_options *o, const el_subject *subject, el_machine 
         }
         frame++;
     }
-    (void)el_stream_flush(stream);
+    wait_for_host(stream, link);
     return true;
 }
 
@@ -165,7 +181,7 @@ int el_command_stream(int argc, char **argv)
     }
     el_subject subject = {0};
     el_posix_port port = {0};
-    bool good = el_subject_open(&subject, &o.common.subject);
+    bool good = el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common));
     if (good && open_link(&o, &port)) {
         fflush(stdout);
         const struct sigaction action = {.sa_handler = stop};

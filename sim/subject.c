@@ -41,13 +41,15 @@ static bool choose_shading(el_subject *subject, const el_subject_options *option
         el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", options->mesh);
         return false;
     }
+    material->flags = EL_MATERIAL_FLAT_MEAN;
     material->texture = &subject->texture;
     material->light = subject->mesh.normals != NULL && material->shading != EL_SHADE_TEXTURED ? &light : NULL;
     return true;
 }
 
-/* By default the camera stands where the bounding sphere just fits, half to the right and above. */
-static bool place_camera(el_subject *subject, const el_subject_options *options)
+/* By default the camera stands where the bounding sphere just fits the picture's narrower side, half to the right and
+ * above. */
+static bool place_camera(el_subject *subject, const el_subject_options *options, double aspect)
 {
     const double unit = ldexp(1, subject->mesh.scale_log2);
     const double radius = (subject->mesh.radius > 0 ? subject->mesh.radius : 1) * unit;
@@ -64,7 +66,8 @@ static bool place_camera(el_subject *subject, const el_subject_options *options)
         return false;
     }
     static const double direction[3] = {0.48, 0.36, 0.8};
-    const double fitting = radius / sin(fov * (M_PI / 360)) * 1.02;
+    const double half = tan(fov * (M_PI / 360)) * fmin(aspect, 1);
+    const double fitting = radius / sin(atan(half)) * 1.02;
     double distance = 0;
     for (int i = 0; i < 3; i++) {
         eye[i] = target[i] + direction[i] * fitting;
@@ -111,7 +114,7 @@ static bool place_camera(el_subject *subject, const el_subject_options *options)
     return status == EL_OK;
 }
 
-static bool open_mesh(el_subject *subject, const el_subject_options *options)
+static bool open_mesh(el_subject *subject, const el_subject_options *options, double aspect)
 {
     size_t size;
     subject->file = el_file_read(options->mesh, &size);
@@ -126,10 +129,10 @@ static bool open_mesh(el_subject *subject, const el_subject_options *options)
     subject->material.colour[0] = 200;
     subject->material.colour[1] = 200;
     subject->material.colour[2] = 200;
-    return choose_shading(subject, options) && place_camera(subject, options);
+    return choose_shading(subject, options) && place_camera(subject, options, aspect);
 }
 
-bool el_subject_open(el_subject *subject, const el_subject_options *options)
+bool el_subject_open(el_subject *subject, const el_subject_options *options, double aspect)
 {
     *subject = (el_subject){0};
     if (options->mesh != NULL) {
@@ -137,7 +140,7 @@ bool el_subject_open(el_subject *subject, const el_subject_options *options)
             el_report("--scene and --mesh exclude each other");
             return false;
         }
-        return open_mesh(subject, options);
+        return open_mesh(subject, options, aspect);
     }
     if (options->eye != NULL || options->look_at != NULL || options->fov != NULL || options->near != NULL ||
         options->far != NULL || options->shading != NULL) {

@@ -24,8 +24,8 @@ typedef struct el_subject {
     el_camera camera;
 } el_subject;
 
-/* False after one line on stderr. Close it in any case. */
-bool el_subject_open(el_subject *subject, const el_subject_options *options);
+/* `aspect` is the picture's width over its height. False after one line on stderr. Close it in any case. */
+bool el_subject_open(el_subject *subject, const el_subject_options *options, double aspect);
 void el_subject_close(el_subject *subject);
 
 uint16_t el_subject_background(const el_subject *subject);

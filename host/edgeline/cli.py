@@ -10,7 +10,9 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import signal
 import sys
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import NoReturn
@@ -39,6 +41,9 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command; returns the exit code."""
     options = _parser().parse_args(arguments)
+    # A recording that is told to end keeps its frames, whoever tells it.
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         run: Callable[[argparse.Namespace], int] = options.func
         return run(options)
@@ -229,6 +234,8 @@ def _view(options: argparse.Namespace) -> int:
 
 def _shot(options: argparse.Namespace) -> int:
     check_writable(options.output)
+    if not options.output.lower().endswith(".png"):
+        raise EdgelineError(f"{options.output}: a shot is a PNG file; name it so")
     with _open(options, Session()) as link:
         frame = link.next_frame(options.timeout)
         save_png(options.output, frame.picture)

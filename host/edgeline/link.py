@@ -41,8 +41,17 @@ class Link:
         self.close()
 
     def __iter__(self) -> Iterator[Frame]:
+        """Verified frames; ends with a finite stream (a capture, a pipe) that held one at least."""
+        seen = False
         while True:
-            yield self.next_frame(self.timeout_s)
+            try:
+                frame = self.next_frame(self.timeout_s)
+            except StreamEndError:
+                if seen:
+                    return
+                raise
+            seen = True
+            yield frame
 
     @property
     def hello(self) -> Hello:

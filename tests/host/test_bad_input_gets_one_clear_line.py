@@ -39,6 +39,7 @@ def complains(result: subprocess.CompletedProcess[str], status: int, *words: str
         (["record", "-o", "a.bmp", "-p", "x"], ["a.bmp", "*.gif"]),
         (["record", "-o", "no/folder/a.gif", "-p", "x"], ["no/folder/a.gif", "No such file"]),
         (["shot", "-o", ".", "-p", "x"], ["folder"]),
+        (["shot", "-o", "a.jpg", "-p", "x"], ["a.jpg", "PNG"]),
     ],
 )
 def test_bad_command_lines(edgeline: Edgeline, arguments: list[str], words: list[str]) -> None:

@@ -122,7 +122,7 @@ def watch() -> Iterator[Watch]:
         reader.stop()
 
 
-def run_until(root: tk.Tk, true: Callable[[], bool], seconds: float = 15) -> None:
+def run_until(root: tk.Tk, true: Callable[[], bool], seconds: float = 60) -> None:
     deadline = time.monotonic() + seconds
     while not true():
         assert time.monotonic() < deadline, "this did not happen in time"

@@ -21,9 +21,9 @@ static void expect_near(const seeded *s, el_angle angle)
 {
     const long double turn = 6.28318530717958647692528676655900577L;
     const long double radians = (long double)angle / 4294967296.0L * turn;
-    const long double sine_error = fabsl((long double)el_sin_q30(angle) - sinl(radians) * ONE);
-    const long double cosine_error = fabsl((long double)el_cos_q30(angle) - cosl(radians) * ONE);
-    if (sine_error > TOLERANCE || cosine_error > TOLERANCE) {
+    const long double sine_error = fabsl((long double)el_sin_q30(angle) - sinl(radians) * (long double)ONE);
+    const long double cosine_error = fabsl((long double)el_cos_q30(angle) - cosl(radians) * (long double)ONE);
+    if (sine_error > (long double)TOLERANCE || cosine_error > (long double)TOLERANCE) {
         fail_at(s, "angle %08lX: sine off by %.2Lf units, cosine by %.2Lf", (unsigned long)angle, sine_error,
                 cosine_error);
     }

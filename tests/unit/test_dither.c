@@ -45,12 +45,12 @@ static void draw(uint16_t *pixels, const uint16_t rgb_q8[3], int32_t y, const el
 }
 
 /* Sum of a channel over the block of 16 pixels at (x, y). */
-static unsigned block_sum(const uint16_t *pixels, int x, int y, int channel)
+static unsigned block_sum(const uint16_t *pixels, unsigned x, unsigned y, int channel)
 {
     static const unsigned shifts[3] = {11, 5, 0};
     static const unsigned masks[3] = {31, 63, 31};
     unsigned sum = 0;
-    for (int i = 0; i < 16; i++) {
+    for (unsigned i = 0; i < 16; i++) {
         sum += (pixels[(y + i / 4) * SIDE + x + i % 4] >> shifts[channel]) & masks[channel];
     }
     return sum;
@@ -69,9 +69,9 @@ static void test_mean_of_each_block_is_the_colour(void)
         const uint16_t rgb_q8[3] = {(uint16_t)colour_q8, (uint16_t)(0xFF00 - colour_q8), (uint16_t)(colour_q8 / 2)};
         uint16_t pixels[SIDE * SIDE];
         draw(pixels, rgb_q8, 0, NULL);
-        for (int block = 0; block < 25; block++) { /* blocks need not begin at multiples of 4 */
-            const int x = block % 5;
-            const int y = block / 5;
+        for (unsigned block = 0; block < 25; block++) { /* blocks need not begin at multiples of 4 */
+            const unsigned x = block % 5;
+            const unsigned y = block / 5;
             assert_mean(block_sum(pixels, x, y, 0), 31, rgb_q8[0]);
             assert_mean(block_sum(pixels, x, y, 1), 63, rgb_q8[1]);
             assert_mean(block_sum(pixels, x, y, 2), 31, rgb_q8[2]);

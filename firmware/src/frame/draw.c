@@ -209,6 +209,29 @@ static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
     return (det < 0) != (draw->mirrored != 0);
 }
 
+/* A corner from which a fan has triangles of one winding. Snapping can dent a cut polygon by a sub-pixel; from the wrong
+ * corner a fan folds over there, and its part that faces away would be culled while its neighbour covers too much. */
+static unsigned fan_root(const el_screen_vertex screen[], unsigned count)
+{
+    for (unsigned root = 0; root < count; root++) {
+        bool clockwise = false;
+        bool counter_clockwise = false;
+        for (unsigned i = 2; i < count; i++) {
+            const el_screen_vertex *const b = &screen[(root + i - 1) % count];
+            const el_screen_vertex *const c = &screen[(root + i) % count];
+            const int32_t x[3] = {screen[root].x, b->x, c->x};
+            const int32_t y[3] = {screen[root].y, b->y, c->y};
+            const int64_t area = el_doubled_area(x, y);
+            clockwise = clockwise || area > 0;
+            counter_clockwise = counter_clockwise || area < 0;
+        }
+        if (!(clockwise && counter_clockwise)) {
+            return root;
+        }
+    }
+    return 0;
+}
+
 static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
 {
     const uint16_t *const vertices = d->mesh->triangles[index];
@@ -245,9 +268,12 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     for (unsigned i = 0; i < count; i++) {
         el_project(&d->transform, &corners[i].position, &screen[i]);
     }
+    const unsigned a = fan_root(screen, count);
     for (unsigned i = 2; i < count; i++) {
-        const el_screen_vertex fan[3] = {screen[0], screen[i - 1], screen[i]};
-        const el_clip_corner *const cut[3] = {&corners[0], &corners[i - 1], &corners[i]};
+        const unsigned b = (a + i - 1) % count;
+        const unsigned c = (a + i) % count;
+        const el_screen_vertex fan[3] = {screen[a], screen[b], screen[c]};
+        const el_clip_corner *const cut[3] = {&corners[a], &corners[b], &corners[c]};
         add_triangle(d, index, fan, cut);
     }
 }

@@ -58,11 +58,12 @@ _Static_assert(sizeof(el_run) <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES co
  * textured triangles in all, takes one pass (24/32 of that for triangles without textures). A triangle that is cut at the
  * near or far plane or the guard band counts for up to seven of three times the size; few are. While triangles are
  * collected the vertices lie in the depth band, which is not in use then, and beside it where that is too small.
- * Less memory costs passes, never pixels. */
+ * Less memory costs passes, never pixels. Never less than el_init accepts. */
 #define EL_MEMORY_BYTES(width, height, band_lines, vertices, triangles, draws)                                         \
-    (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
-     EL_MAX_OF(EL_DEPTH_BAND_BYTES(width, band_lines), EL_ROUND_UP_8((vertices)*EL_VERTEX_BYTES)) +                    \
-     (triangles)*EL_TEXTURED_TRIANGLE_BYTES + (draws)*EL_RUN_BYTES + EL_MIN_LIST_BYTES / 2U + 16U)
+    EL_MAX_OF(EL_MIN_MEMORY_BYTES(width, height, band_lines),                                                          \
+              2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                        \
+                  EL_MAX_OF(EL_DEPTH_BAND_BYTES(width, band_lines), EL_ROUND_UP_8((vertices)*EL_VERTEX_BYTES)) +       \
+                  (triangles)*EL_TEXTURED_TRIANGLE_BYTES + (draws)*EL_RUN_BYTES + EL_MIN_LIST_BYTES / 2U + 16U)
 
 /* The least that el_init accepts. */
 #define EL_MIN_MEMORY_BYTES(width, height, band_lines)                                                                 \

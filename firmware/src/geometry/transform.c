@@ -247,24 +247,39 @@ static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el
     return false;
 }
 
+/* The most that |form| can be within the sphere, below 2^62. */
+static uint64_t bound_of(const el_form *form, const el_mesh *mesh)
+{
+    return el_abs_u64(form_at_centre(form, mesh)) + row_length(form->row) * (mesh->radius + 1U);
+}
+
+/* In orthographic projection w is constant and may be any unit: 2^w_log2 world units, no less than the mesh's distance can
+ * be, so that x and y have the bits that d needs anyway, wherever the camera stands. */
+static int choose_w_log2(const el_view *view, const el_mesh *mesh, const el_form forms[3])
+{
+    if (view->projection == EL_PERSPECTIVE) {
+        return 0;
+    }
+    return el_max_i32(0, el_bit_length_u64(bound_of(&forms[2], mesh)) - FORM_BITS);
+}
+
 /* The draw's unit, 2^-unit world units: the smallest in which |x|, |y|, d and w are below 2^30 for the whole sphere. */
-static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form forms[3], const el_factor factors[3])
+static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form forms[3], const el_factor factors[3],
+                       int w_log2)
 {
     /* Wide fields of view have focal factors up to 2^17, so the largest coordinate is taken with 22 bits less. */
     enum { COARSE = 22 };
-    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : (int64_t)1 << (FORM_BITS - COARSE);
+    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : (int64_t)1 << (FORM_BITS - COARSE + w_log2);
     for (unsigned i = 0; i < 3; i++) {
-        const uint64_t reach = row_length(forms[i].row) * (mesh->radius + 1U);
-        const uint64_t bound = el_abs_u64(form_at_centre(&forms[i], mesh)) + reach; /* below 2^62 */
-        const int64_t scaled = scale_by((int64_t)bound, factors[i], COARSE) + 1;
+        const int64_t scaled = scale_by((int64_t)bound_of(&forms[i], mesh), factors[i], COARSE) + 1;
         largest = scaled > largest ? scaled : largest;
     }
     return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
 }
 
-/* A coarser unit leaves w too few bits to divide by: meshes of thousands of units before a camera whose picture is a
- * fraction of one across. In orthographic projection w is one world unit; in perspective it is the distance. */
-enum { MIN_UNIT_LOG2_PERSPECTIVE = 0, MIN_UNIT_LOG2_ORTHOGRAPHIC = 8 };
+/* A coarser unit leaves too few bits to d, or to the constant w: meshes of thousands of units before a camera whose picture is a
+ * fraction of one across. */
+enum { MIN_UNIT_LOG2 = 0, MIN_W_BITS_ORTHOGRAPHIC = 8 };
 
 int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
 {
@@ -279,9 +294,13 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     }
 
     const el_factor one = {.mantissa = 1U << 30, .exponent = 30};
-    const el_factor factors[3] = {view->focal[0], view->focal[1], one};
-    const int unit_log2 = choose_unit(view, mesh, forms, factors);
-    if (unit_log2 < (view->projection == EL_PERSPECTIVE ? MIN_UNIT_LOG2_PERSPECTIVE : MIN_UNIT_LOG2_ORTHOGRAPHIC)) {
+    const int w_log2 = choose_w_log2(view, mesh, forms);
+    el_factor factors[3] = {view->focal[0], view->focal[1], one};
+    factors[0].exponent = (int16_t)(factors[0].exponent - w_log2);
+    factors[1].exponent = (int16_t)(factors[1].exponent - w_log2);
+    const int unit_log2 = choose_unit(view, mesh, forms, factors, w_log2);
+    if (unit_log2 < MIN_UNIT_LOG2 ||
+        (view->projection == EL_ORTHOGRAPHIC && unit_log2 + w_log2 < MIN_W_BITS_ORTHOGRAPHIC)) {
         return EL_ERROR_RANGE;
     }
 
@@ -324,7 +343,7 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
         transform->depth_shift = 12;
         return EL_VISIBLE;
     }
-    transform->constant_w = (int32_t)el_shift_i64(1, -unit_log2);
+    transform->constant_w = (int32_t)el_shift_i64(1, -(unit_log2 + w_log2));
     /* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32. */
     const uint64_t range = (uint64_t)(view->far_q16 - view->near_q16); /* Q16 world units */
     uint64_t scale = ((uint64_t)EL_DEPTH_MAX << 46) / range;

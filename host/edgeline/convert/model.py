@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import TEXEL_ONE, Floats, Ints, Soup, Texture
+from edgeline.convert.mesh import MAX_TRIANGLES, TEXEL_ONE, Floats, Ints, Soup, Texture, check_triangle_count
 from edgeline.convert.normals import smooth_normals, unit
 from edgeline.convert.obj import NONE, Face, Material, ObjModel
 from edgeline.convert.triangulate import triangulate
@@ -33,6 +33,10 @@ class Corners:
 
 def gather(model: ObjModel, positions: Floats) -> Corners:
     """Triangles out of the model's faces; `positions` are its vertices as they will be stored, (n, 3)."""
+    # Some triangles may have no area and be dropped later; twice too many are too many before any work is done on them.
+    count = sum(len(face.positions) - 2 for face in model.faces)
+    if count > 2 * MAX_TRIANGLES:
+        check_triangle_count(count)
     rows: list[tuple[int, ...]] = []
     for number, face in enumerate(model.faces):
         for triangle in triangulate(positions[list(face.positions)]):
