@@ -51,7 +51,7 @@ static unsigned block_sum(const uint16_t *pixels, unsigned x, unsigned y, int ch
     static const unsigned masks[3] = {31, 63, 31};
     unsigned sum = 0;
     for (unsigned i = 0; i < 16; i++) {
-        sum += (pixels[(y + i / 4) * SIDE + x + i % 4] >> shifts[channel]) & masks[channel];
+        sum += ((unsigned)pixels[(y + i / 4) * SIDE + x + i % 4] >> shifts[channel]) & masks[channel];
     }
     return sum;
 }

@@ -271,8 +271,9 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
     enum { COARSE = 22 };
     int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : (int64_t)1 << (FORM_BITS - COARSE + w_log2);
     for (unsigned i = 0; i < 3; i++) {
-        const int64_t scaled = scale_by((int64_t)bound_of(&forms[i], mesh), factors[i], COARSE) + 1;
-        largest = scaled > largest ? scaled : largest;
+        /* Saturated where it does not fit: far beyond what MIN_UNIT_LOG2 lets through. */
+        const int64_t scaled = scale_by((int64_t)bound_of(&forms[i], mesh), factors[i], COARSE);
+        largest = scaled >= largest ? scaled | 1 : largest;
     }
     return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
 }
@@ -333,10 +334,10 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
 
     /* The sphere reaches beyond the near plane, so near < 2^30 in the draw's unit. */
     const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
-    const int64_t far = el_shift_i64(view->far_q16, 16 - unit_log2);
+    const int64_t far_q32 = el_shift_i64(view->far_q16, 16 - unit_log2 - 32);
     transform->near_q32 = (uint64_t)near_q32;
     transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
-    transform->far = far > INT32_MAX ? INT32_MAX : (int32_t)far;
+    transform->far = far_q32 >= (int64_t)INT32_MAX << 32 ? INT32_MAX : (int32_t)((far_q32 + 0xFFFFFFFFLL) >> 32);
     transform->constant_w = 0;
     if (!transform->orthographic) {
         transform->depth_scale = view->depth_scale_q12;

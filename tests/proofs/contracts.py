@@ -1,0 +1,74 @@
+"""What callers may rely on about division, after test_division.py and test_fixed_point.py have proven it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from c_execution import Machine
+from c_values import Cell, Number, Pointer
+from symbolic import Poly
+
+WORD = 1 << 32
+
+
+def divide_words(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_words: quotient * normalised + remainder = high * 2^32 + low, 0 <= remainder < normalised."""
+    high, low, divisor, remainder = arguments
+    d = machine.poly(divisor.cell, "normalised")
+    path = machine.path
+    path.prove(d - (1 << 31), "el_divide_words: the divisor has its top bit")
+    path.prove(d - 1 - high.poly, "el_divide_words: high < normalised")
+    n = high.poly * WORD + low.poly
+    quotient = path.atom("quotient", 0, WORD - 1)
+    rest = n - quotient * d
+    path.assume(rest)
+    path.assume(d - 1 - rest)
+    machine.put(remainder.cell, rest)
+    return machine.exactly("uint32_t", quotient)
+
+
+def divisor_make(machine: Machine, arguments: list[Any]) -> Cell:
+    """el_divisor_make: an el_divisor that stands for d; its members are not known."""
+    d = arguments[0].poly
+    machine.path.prove(d - 1, "el_divisor_make: d >= 1")
+    cell = machine.allocate(machine.type_named("el_divisor"))
+    cell.stands_for = d
+    machine.put(cell.content["reciprocal"], machine.path.atom("reciprocal", 0, WORD - 1))
+    machine.put(cell.content["shift"], machine.path.atom("shift", 0, 31))
+    return cell
+
+
+def divisor_of(argument: Pointer) -> Poly:
+    d = argument.cell.stands_for
+    assert d is not None, "an el_divisor that el_divisor_make has not made"
+    return d
+
+
+def divide_u64(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_u64: floor(n / d). Pre: below 2^32."""
+    n, d = arguments[0].poly, divisor_of(arguments[1])
+    machine.path.prove(d * WORD - 1 - n, "el_divide_u64: the quotient fits 32 bits")
+    return machine.exactly("uint32_t", _floor(machine, n, d, 0, WORD - 1))
+
+
+def divide_floor(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_floor_i64: floor(n / d). Pre: -2^31 <= n / d < 2^31."""
+    n, d = arguments[0].poly, divisor_of(arguments[1])
+    half = WORD // 2
+    machine.path.prove(n + d * half, "el_divide_floor_i64: -2^31 <= n / d")
+    machine.path.prove(d * half - 1 - n, "el_divide_floor_i64: n / d < 2^31")
+    return machine.exactly("int32_t", _floor(machine, n, d, -half, half - 1))
+
+
+def _floor(machine: Machine, n: Poly, d: Poly, low: int, high: int) -> Poly:
+    path = machine.path
+    if path.holds(d * (WORD // 2) - 1 - n):
+        high = min(high, WORD // 2 - 1)
+    return path.new_quotient(n, d, low, high)
+
+
+DIVISION = {
+    "el_divisor_make": divisor_make,
+    "el_divide_u64": divide_u64,
+    "el_divide_floor_i64": divide_floor,
+}

@@ -1,0 +1,402 @@
+"""geometry/transform and geometry/clip: from a position to the snapped screen, and the new vertices of cut triangles.
+
+el_transform_position's domain is what el_transform_make promises. All that comes after it is proven for any clip
+coordinates of 32 bits, also those of a mesh whose bounding sphere is a lie: el_outcode first, then el_project for the
+vertices that it found inside, and the clip for the others.
+
+A cut takes t = da / (da - db) in [0, 1] as Q31, so mix() stays between its ends, and nothing that is mixed grows. The
+product in mix() is below (2^32 - 1) 2^31 + 2^30 < 2^63.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import contracts
+from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
+from symbolic import Path, require
+
+TRANSFORM, CLIP = "geometry/transform.c", "geometry/clip.c"
+I32 = (-(2**31), 2**31 - 1)
+
+
+def guard_sub(machine: Machine) -> int:
+    return machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+
+
+# --- position to clip space -------------------------------------------------------------------------------------------
+
+
+def form_domain(machine: Machine) -> list[Any]:
+    """|offset| < 2^62, rows of 32 bits, positions of 16, a shift of 1..31, and the sum within 32 bits after it."""
+    path = machine.path
+    rows = [path.atom(f"row{i}", *I32) for i in range(3)]
+    offset = path.atom("offset", -(2**62) + 1, 2**62 - 1)
+    shift = path.choose(path.atom("shift", 1, 31))
+    position = [path.atom(f"p{i}", -(2**15), 2**15 - 1) for i in range(3)]
+    total = sum((row * p for row, p in zip(rows, position, strict=True)), offset)
+    path.assume(total + 2 ** (31 + shift))
+    path.assume(2 ** (31 + shift) - 1 - total)
+    transform = machine.struct("el_transform", shift=shift)
+    machine.put(transform.content["rows"].content[0], rows)
+    machine.put(transform.content["offsets"].content[0], offset)
+    return [Pointer([transform]), machine.exactly("uint32_t", 0), machine.array("int16_t", position)]
+
+
+FORM = Subject(TRANSFORM, "form_value", form_domain)
+
+# --- where it lies ----------------------------------------------------------------------------------------------------
+
+
+def transform_of(machine: Machine, shift: int | None = None, **fields: Any) -> Any:
+    """A transform with guard shifts as el_view_make chooses them; x and y are treated alike: one shift serves both."""
+    path = machine.path
+    transform = machine.struct("el_transform", **fields)
+    shift = path.choose(path.atom("guard_shift", 0, 11)) if shift is None else shift
+    machine.put(transform.content["guard_shift"], [shift, shift])
+    return transform
+
+
+def clip_vertex(machine: Machine, name: str = "") -> Any:
+    return machine.struct("el_clip_vertex", **{axis: machine.path.atom(name + axis, *I32) for axis in "xydw"})
+
+
+def outcode_domain(machine: Machine) -> list[Any]:
+    near, far = machine.path.atom("near", 1, 2**30 - 1), machine.path.atom("far", 1, 2**31 - 1)
+    transform = transform_of(machine, near=near, far=far)
+    return [Pointer([transform]), Pointer([clip_vertex(machine)])]
+
+
+def outcode_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """Without a bit of EL_CODE_CLIP: near <= d <= far, and |x|, |y| <= w << guard_shift."""
+    path = machine.path
+    constants = {name: machine.constant(machine.unit.constants[f"EL_CODE_{name}"]) for name in ("CLIP",)}
+    code = result.poly.known
+    if code & constants["CLIP"]:
+        return
+    transform, vertex = arguments[0].cell, arguments[1].cell
+    x, y, d, w = (machine.poly(vertex, axis) for axis in "xydw")
+    path.prove(d - machine.poly(transform, "near"), "d >= near")
+    path.prove(machine.poly(transform, "far") - d, "d <= far")
+    for i, coordinate in enumerate((x, y)):
+        limit = w * (1 << machine.poly(transform, "guard_shift", i).known)
+        path.prove(limit - coordinate, "x, y <= w << guard_shift")
+        path.prove(limit + coordinate, "x, y >= -w << guard_shift")
+
+
+OUTCODE = Subject(TRANSFORM, "el_outcode", outcode_domain, outcode_check)
+
+# --- onto the screen --------------------------------------------------------------------------------------------------
+
+
+def guard_shift_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    size, shift = arguments[0].poly.known, result.poly.known
+    require(
+        size * (1 + (1 << shift)) <= 2 * 2040 and shift <= 11, "half a screen and the guard band are within 2040 px"
+    )
+
+
+def snap_domain(machine: Machine) -> list[Any]:
+    """Sizes that belong to a guard shift g: size (1 + 2^g) <= 2 * 2040."""
+    path = machine.path
+    g = path.choose(path.atom("guard_shift", 0, 11))
+    size = path.atom("size", 1, 4080 // (1 + (1 << g)))
+    w, c = path.atom("w", 1, 2**31 - 1), path.atom("c", *I32)
+    path.assume(w * (1 << g) - c)
+    path.assume(w * (1 << g) + c)
+    if w.constant is None:
+        # |c| <= w << g, times half the size.
+        path.assume_product(w * (1 << g) - c, size)
+        path.assume_product(w * (1 << g) + c, size)
+        most = 4080 // (1 + (1 << g))
+        path.assume_product(most - size, w)
+        divisor = contracts.divisor_make(machine, [machine.exactly("uint32_t", w)])
+    else:
+        divisor = machine.call("el_divisor_make", machine.exactly("uint32_t", w))
+    numbers = machine.exactly("int64_t", c), machine.exactly("uint16_t", size), machine.exactly("uint32_t", w)
+    return [*numbers, Pointer([divisor])]
+
+
+def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """Within the guard band, and nearest to size / 2 (1 + c / w), ties up."""
+    path = machine.path
+    guard = guard_sub(machine)
+    c, size, w = (argument.poly for argument in arguments[:3])
+    half = size * (guard // 2040 // 2)
+    path.prove(result.poly + guard, "x >= -EL_GUARD_SUB")
+    path.prove(guard - result.poly, "x <= EL_GUARD_SUB")
+    error = c * half + path.floor(w, 2) - (result.poly - half) * w
+    path.prove(error, "not above the nearest")
+    path.prove(w - 1 - error, "not below the nearest")
+
+
+SNAP = Subject(
+    TRANSFORM,
+    "snap",
+    snap_domain,
+    snap_check,
+    modular=["reciprocal_word", "el_divide_words"],
+    contracts=contracts.DIVISION,
+)
+
+
+def project_domain(orthographic: bool) -> Any:
+    def domain(machine: Machine) -> list[Any]:
+        path = machine.path
+        near, w = path.atom("near", 1, 2**30 - 1), path.atom("w", 1, 2**31 - 1)
+        # far >= 9/8 near: far / (far - near) <= 9.
+        scale = path.atom("depth_scale", 1, 2**32 - 1 if orthographic else 65534 * 9 << 12)
+        near_q32 = path.atom("near_q32", 1, 2**62)
+        path.assume(near * 2**32 - near_q32)
+        d = path.atom("d", 1, 2**31 - 1)
+        path.assume(d - near)
+        transform = machine.struct(
+            "el_transform", near=near, near_q32=near_q32, depth_scale=scale, orthographic=int(orthographic)
+        )
+        machine.put(
+            transform.content["depth_shift"], path.choose(path.atom("depth_shift", 0, 63)) if orthographic else 12
+        )
+        machine.put(transform.content["size"], [1, 1])
+        x, y = path.atom("x", *I32), path.atom("y", *I32)
+        vertex = machine.struct("el_clip_vertex", x=x, y=y, d=d, w=w)
+        return [Pointer([transform]), Pointer([vertex]), Pointer([machine.struct("el_screen_vertex")])]
+
+    return domain
+
+
+def project_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    screen = arguments[2].cell
+    path = machine.path
+    path.prove(65534 - machine.poly(screen, "z"), "z <= EL_DEPTH_MAX")
+    path.prove(machine.poly(screen, "w") - 2**15, "1/w is normalised")
+    path.prove(31 - machine.poly(screen, "w_shift"), "w_shift fits 5 bits")
+
+
+def snapped(machine: Machine, arguments: list[Any]) -> Number:
+    """snap, proven above."""
+    guard = guard_sub(machine)
+    return machine.number("int32_t", "snapped", -guard, guard)
+
+
+def project(orthographic: bool) -> Subject:
+    return Subject(
+        TRANSFORM,
+        "el_project",
+        project_domain(orthographic),
+        project_check,
+        contracts={**contracts.DIVISION, "snap": snapped},
+        lemmas={"el_project.distance": lambda machine, distance: as_unknown(machine, distance, 0, 2**31 - 1)},
+    )
+
+
+# --- clipping ---------------------------------------------------------------------------------------------------------
+
+
+def mix_domain(machine: Machine) -> list[Any]:
+    path = machine.path
+    a, b, t = path.atom("from", *I32), path.atom("to", *I32), path.atom("t", 0, 2**31)
+    if a.constant is None and path.decide(b - a, a - b - 1):
+        path.assume_product(b - a, t)
+        path.assume_product(b - a, 2**31 - t)
+    elif a.constant is None:
+        path.assume_product(a - b, t)
+        path.assume_product(a - b, 2**31 - t)
+    return [machine.exactly("int32_t", a), machine.exactly("int32_t", b), machine.exactly("int64_t", t)]
+
+
+def mix_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    path = machine.path
+    a, b, t = (argument.poly for argument in arguments)
+    low, high = (a, b) if path.decide(b - a, a - b - 1) else (b, a)
+    path.prove(result.poly - low, "not below both ends")
+    path.prove(high - result.poly, "not above both ends")
+    error = a * 2**32 + (b - a) * t * 2 + 2**31 - result.poly * 2**32
+    path.prove(error, "not above the nearest")
+    path.prove(2**32 - 1 - error, "not below the nearest")
+
+
+MIX = Subject(CLIP, "mix", mix_domain, mix_check)
+
+
+def inside_domain(machine: Machine) -> list[Any]:
+    path = machine.path
+    transform = transform_of(machine, near=path.atom("near", 1, 2**30 - 1), far=path.atom("far", 1, 2**31 - 1))
+    plane = machine.exactly("uint32_t", path.choose(path.atom("plane", 0, 5)))
+    return [Pointer([transform]), Pointer([clip_vertex(machine)]), plane]
+
+
+MOST_INSIDE = 2**42 + 2**31
+
+
+def inside_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    require(machine.path.within(result.poly, -MOST_INSIDE, MOST_INSIDE), "|inside| <= 2^42 + 2^31")
+
+
+INSIDE = Subject(CLIP, "inside", inside_domain, inside_check)
+
+
+# A coordinate of a mesh within its sphere is below 2^30; each cut at a side plane can add SIDE_ERROR (see below).
+SIDE_ERROR = 5 << 10
+MOST_COORDINATE = 2**30 + 4 * SIDE_ERROR
+
+
+def cut_domain(machine: Machine) -> list[Any]:
+    """Two corners, the first inside and the second outside of a plane.
+
+    t depends on the two distances only, and the new coordinate on a side plane's guard shift only: all distances with
+    near and far and the largest shift, all shifts with the side planes and one distance.
+    """
+    path = machine.path
+    plane = path.choose(path.atom("plane", 0, 5))
+    near, far = path.atom("near", 1, 2**30 - 1), path.atom("far", 1, 2**31 - 1)
+    transform = transform_of(machine, 11 if plane < 2 else None, near=near, far=far)
+    machine.put(transform.content["orthographic"], path.choose(path.atom("orthographic", 0, 1)))
+    guard = 1 << machine.poly(transform, "guard_shift", 0).known
+    # Orthographic: w << guard_shift is below |x| or |y| of the corner outside.
+    machine.put(transform.content["constant_w"], path.atom("constant_w", 1, MOST_COORDINATE // guard))
+    da, db = Poly.of(1), Poly.of(-1)
+    if plane < 2:
+        da, db = path.atom("da", 0, MOST_INSIDE), path.atom("db", -MOST_INSIDE, -1)
+    corners = []
+    for name in "ab":
+        corner = machine.struct("el_clip_corner")
+        machine.put(corner.content["position"], clip_vertex(machine, name))
+        machine.put(corner.content["attributes"], [path.atom(f"{name}{i}", -(2**30), 2**30) for i in range(5)])
+        corners.append(Pointer([corner]))
+    numbers = machine.exactly("int64_t", da), machine.exactly("int64_t", db)
+    return [Pointer([transform]), corners[0], numbers[0], corners[1], numbers[1], machine.exactly("uint32_t", plane)]
+
+
+def cut_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """t is the exact 2^31 da / (da - db) with an error in (-2, 1]."""
+    path = machine.path
+    t = machine.locals["cut.t_q31"].poly
+    shift = 1 << machine.locals["cut.shift"].poly.known
+    da, db = arguments[2].poly, arguments[4].poly
+    whole = da - db
+    upper = path.floor(whole, shift)
+    cut_off = whole - upper * shift
+    path.prove(2**31 - t, "t <= 1")
+    path.assume(2**31 - t)
+    path.assume_product(t, cut_off)
+    path.assume_product(t, shift - 1 - cut_off)
+    path.prove((t + 2) * whole - da * 2**31 - 1, "t > T - 2")
+    path.prove(da * 2**31 - (t - 1) * whole, "t <= T + 1")
+
+
+def mixed(machine: Machine, arguments: list[Any]) -> Number:
+    """mix, proven above: between its ends for t in [0, 1]. At a side plane, d is as test_a_side_plane has it."""
+    a, b, t = (argument.poly for argument in arguments)
+    path = machine.path
+    path.prove(t, "t >= 0")
+    path.prove(2**31 - t, "t <= 1")
+    low = min(path.bounds(a)[0], path.bounds(b)[0])
+    high = max(path.bounds(a)[1], path.bounds(b)[1])
+    if machine.scopes[0]["which"].content.poly.known >= 2:
+        guard = 1 << machine.poly(machine.scopes[0]["transform"].content.cell, "guard_shift", 0).known
+        low, high = -(MOST_COORDINATE // guard), MOST_COORDINATE // guard
+    return machine.number("int32_t", "mixed", low, high)
+
+
+CUT = Subject(CLIP, "cut", cut_domain, cut_check, contracts={"mix": mixed})
+
+
+def prove_side_plane(error: int) -> None:
+    """w << g of a new corner at the plane x = w << g stays within `error` of the largest |x|, for g <= 11.
+
+    With G = 2^g, da = G wa - xa and T = 2^31 da / (da - db), the exact crossing has G (2^31 wa + (wb - wa) T) =
+    2^31 xa + (xb - xa) T, between 2^31 xa and 2^31 xb. The code takes t = T + e, e in [-2, 1], and rounds by 2^30.
+    """
+    path = Path([])
+    wide = 2**30
+    xa, xb = path.atom("xa", -wide, wide), path.atom("xb", -wide, wide)
+    wa, wb = path.atom("wa", -wide, wide), path.atom("wb", -wide, wide)
+    whole_t, e, rounding = path.atom("T", 0, 2**31), path.atom("e", -2, 1), path.atom("rounding", -(2**30), 2**30)
+    guard = 2**11
+    # The identity: da 2^31 + (db - da) T = 0 makes the two sides equal.
+    da, db = wa * guard - xa, wb * guard - xb
+    difference = (wa * 2**31 + (wb - wa) * whole_t) * guard - (xa * 2**31 + (xb - xa) * whole_t)
+    require((difference - (da * 2**31 + (db - da) * whole_t)).constant == 0, "the crossing is on the plane")
+    change = path.atom("wb - wa", -2 * wide, 2 * wide)
+    moved = (change * e + rounding) * guard
+    path.prove(error * 2**31 - moved, "w << g grows by less")
+    path.prove(error * 2**31 + moved, "w << g falls by less")
+    for x in (xa, xb):
+        path.prove(wide - x, "between xa and xb")
+
+
+def clamp_domain(machine: Machine) -> list[Any]:
+    """Limits are w << guard_shift with w >= 1."""
+    return [machine.number("int32_t", "value"), machine.number("int64_t", "limit", 1, (2**31 - 1) << 11)]
+
+
+def clamp_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    machine.path.prove(arguments[1].poly - result.poly, "<= limit")
+    machine.path.prove(arguments[1].poly + result.poly, ">= -limit")
+
+
+CLAMP = Subject(CLIP, "clamp_to", clamp_domain, clamp_check)
+
+
+SUBJECTS = {
+    "form_value": FORM,
+    "outcode": OUTCODE,
+    "snap": SNAP,
+    "project, perspective": project(False),
+    "project, orthographic": project(True),
+    "mix": MIX,
+    "inside": INSIDE,
+    "cut": CUT,
+    "clamp_to": CLAMP,
+}
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_all_values(name: str) -> None:
+    SUBJECTS[name].prove()
+
+
+@pytest.mark.parametrize("bits", [6, 8])
+def test_snapping_with_more_bits(bits: int) -> None:
+    SNAP.prove(bits)
+
+
+def test_the_guard_band_of_every_size() -> None:
+    def subject(size: int) -> Subject:
+        return Subject(TRANSFORM, "guard_shift", lambda m: [m.exactly("uint16_t", size)], guard_shift_check)
+
+    for size in range(1, 2041):
+        subject(size).prove()
+
+
+def test_a_side_plane() -> None:
+    prove_side_plane(SIDE_ERROR)
+    with pytest.raises(AssertionError):
+        prove_side_plane(SIDE_ERROR - 1)
+
+
+@EVERY_PRECISION
+@pytest.mark.parametrize("name", ["form_value", "outcode", "snap", "mix", "inside", "clamp_to"])
+def test_the_compiler_agrees(name: str, bits: int) -> None:
+    subject = SUBJECTS[name]
+    Subject(subject.file, subject.function, subject.domain, modular=subject.modular).agree(bits, count=100)
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "old", "new"),
+    [
+        ("form_value", TRANSFORM, "(int32_t)(sum >> transform->shift)", "(int32_t)((sum + 1) >> transform->shift)"),
+        ("outcode", TRANSFORM, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),
+        ("snap", TRANSFORM, "c * half + (w >> 1)", "c * half + (w >> 1) + 1"),
+        ("project, perspective", TRANSFORM, "rest > 0x7FFFU ? 0x7FFFU", "rest > 0x8000U ? 0x8000U"),
+        ("project, orthographic", TRANSFORM, "z > EL_DEPTH_MAX ? EL_DEPTH_MAX", "z > EL_DEPTH_MAX + 1 ? EL_DEPTH_MAX"),
+        ("mix", CLIP, "+ (1LL << 30)) >> 31", "+ (1LL << 30) + 1) >> 31"),
+        ("inside", CLIP, "x_limit = (int64_t)v->w * (1", "x_limit = v->w * (1"),
+        ("cut", CLIP, "el_bit_length_u64(whole) - 32", "el_bit_length_u64(whole) - 34"),
+        ("clamp_to", CLIP, "if (value > limit)", "if (value > limit + 1)"),
+    ],
+)
+def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:
+    SUBJECTS[name].fails_with(Fault(file, old, new))
