@@ -8,15 +8,15 @@
  * has left of its memory, and their records form one list in the order of submission. Where there is no room for a
  * state, the triangle is set up anew in every band: slower, with the same pixels. */
 typedef struct states {
-    uint32_t used;                        /* end of the memory handed out so far, bytes from the list's base */
-    uint16_t free[EL_SHADE_OVERDRAW + 1]; /* states given back, by shading; 0: none */
+    uint32_t used;                              /* end of the memory handed out so far, bytes from the list's base */
+    uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; 0: none */
 } states;
 
 static uint16_t take_state(states *pool, const el_list *list, el_shading shading)
 {
-    const uint16_t reused = pool->free[shading];
+    const uint16_t reused = pool->given_back[shading];
     if (reused != 0) {
-        memcpy(&pool->free[shading], el_list_at(list, reused), sizeof pool->free[shading]);
+        memcpy(&pool->given_back[shading], el_list_at(list, reused), sizeof pool->given_back[shading]);
         return reused;
     }
     const uint32_t bytes = EL_ROUND_UP_8(el_triangle_bytes(shading));
@@ -30,8 +30,8 @@ static uint16_t take_state(states *pool, const el_list *list, el_shading shading
 
 static void give_state(states *pool, const el_list *list, el_shading shading, uint16_t name)
 {
-    memcpy(el_list_at(list, name), &pool->free[shading], sizeof pool->free[shading]);
-    pool->free[shading] = name;
+    memcpy(el_list_at(list, name), &pool->given_back[shading], sizeof pool->given_back[shading]);
+    pool->given_back[shading] = name;
 }
 
 static void wait_for(const el_renderer *renderer, const el_band *band)
