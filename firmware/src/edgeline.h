@@ -2,9 +2,10 @@
  *
  * Conventions. World space is right-handed; the camera looks along -z, y is up; counter-clockwise is the front. Clip
  * space is -w..w, the canonical cube [-1,1]^3. The viewport maps it to [0, width] x [0, height], y down, the origin at
- * the upper left; pixel (i, j) has its centre at (i + 0.5, j + 0.5). Vertices are snapped to 1/16 px (1/64, 1/256: limits.h), to nearest, before
- * culling and set-up. Coverage is the top-left rule, exactly. Depth is 16 bits, 0 near, linear on the screen: the exact plane,
- * rounded to nearest; the test is strictly less, so on equal depth the triangle that was drawn first stays. */
+ * the upper left; pixel (i, j) has its centre at (i + 0.5, j + 0.5). Vertices are snapped to 1/16 px (1/64, 1/256:
+ * limits.h), to nearest, before culling and set-up. Coverage is the top-left rule, exactly. Depth is 16 bits, 0 near,
+ * linear on the screen: the exact plane, rounded to nearest; the test is strictly less, so on equal depth the triangle
+ * that was drawn first stays. */
 #ifndef EDGELINE_H
 #define EDGELINE_H
 
