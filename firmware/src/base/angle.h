@@ -4,6 +4,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* 2^32 is a whole turn, so angles wrap by themselves. */
 typedef uint32_t el_angle;
 
@@ -15,5 +19,9 @@ typedef uint32_t el_angle;
 /* Q2.30, within 2 units of the exact value. */
 int32_t el_sin_q30(el_angle angle);
 int32_t el_cos_q30(el_angle angle);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -17,8 +17,11 @@ typedef struct el_bus {
     void (*command)(void *context, uint8_t command, const uint8_t *parameters, size_t count);
     /* Sends `count` 16-bit words with D/C high, most significant byte first, and returns at once or when they are sent.
      * `words` must not change until `done(argument)` was called, exactly once, possibly from an interrupt, possibly
-     * before this function returns. At most one transfer is open: a second call waits for the first. */
+     * before this function returns. At most one transfer is open: a second call, of bytes too, waits for the first.
+     * NULL where the bus has no 16-bit words: panel drivers then send bytes. */
     void (*pixels)(void *context, const uint16_t *words, size_t count, void (*done)(void *argument), void *argument);
+    /* The same for bytes, in the order in which they lie in memory. */
+    void (*bytes)(void *context, const uint8_t *bytes, size_t count, void (*done)(void *argument), void *argument);
     /* Returns after at least this many milliseconds. */
     void (*delay_ms)(void *context, uint32_t ms);
     /* Called while somebody waits for `done`: sleep until an interrupt, or drive the transfer. May be NULL. */

@@ -19,6 +19,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Bytes that `count` bytes take when encoded, at most; the 00 behind them not counted. */
 #define EL_COBS_MAX_BYTES(count) ((count) == 0 ? 1 : (count) + ((count) + 253) / 254)
 
@@ -76,5 +80,9 @@ void el_cobs_discard(el_cobs_encoder *encoder);
 /* Wire bytes made so far, modulo 2^32: the difference of two positions between packets is the size of what lies
  * between them. */
 uint32_t el_cobs_position(const el_cobs_encoder *encoder);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

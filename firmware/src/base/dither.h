@@ -8,6 +8,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The threshold of pixel (x, y) as a fraction of a level, Q16: (2 k + 1) / 32 for k = 0..15. */
 static inline uint32_t el_dither_threshold_q16(uint32_t x, uint32_t y)
 {
@@ -28,5 +32,9 @@ void el_dither_grey4(uint8_t *grey, const uint16_t *rgb565, uint32_t width, uint
 /* One line of RGB565 as single bits, 1 is light, the left pixel in the highest bit; `bits` takes (width + 7) / 8 bytes.
  * With one bit and 16 thresholds, a block's mean is within 1/32 of white, 8 of 255: no pattern of 16 pixels is nearer. */
 void el_dither_mono(uint8_t *bits, const uint16_t *rgb565, uint32_t width, uint32_t y);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,6 +8,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct el_divisor {
     uint32_t normalised; /* d << shift, with its top bit set */
     uint32_t reciprocal; /* floor((2^64 - 1) / normalised) - 2^32 */
@@ -59,5 +63,9 @@ int64_t el_divide_q32(int64_t n, uint32_t fraction, const el_divisor *divisor);
 
 /* The same for a divisor of more than 32 bits, by the processor's or the compiler's own division. 1 <= d < 2^47. */
 int64_t el_divide_wide_q32(int64_t n, uint32_t fraction, uint64_t d);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

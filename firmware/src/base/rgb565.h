@@ -4,10 +4,18 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Keeps the upper bits of each channel, as every stage of Edgeline does. */
 static inline uint16_t el_rgb565(uint8_t red, uint8_t green, uint8_t blue)
 {
     return (uint16_t)(((red >> 3) << 11) | ((green >> 2) << 5) | (blue >> 3));
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -12,6 +12,10 @@
 
 #include "base/stats.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { EL_MAX_SINKS = 3 };
 
 typedef struct el_band {
@@ -54,5 +58,9 @@ typedef struct el_sink {
      * May be NULL. */
     void (*wait)(void *context);
 } el_sink;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -25,6 +25,10 @@
 #include "raster/list.h"
 #include "raster/material.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Bytes that one listed triangle takes, flat or Gouraud and textured, and a vertex while its mesh is drawn. */
 #if EL_SUBPIXEL_BITS == 4
 #define EL_TRIANGLE_BYTES 24
@@ -40,12 +44,6 @@ enum {
     EL_MIN_LIST_BYTES = 512, /* room for a run, a cut triangle and a few vertices at a time */
     EL_RUN_BYTES = 32        /* a draw call's, and another for each change between whole and cut triangles */
 };
-
-_Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
-               "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(el_run) <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
 #define EL_MAX_OF(a, b) ((a) > (b) ? (a) : (b))
@@ -119,5 +117,9 @@ int el_frame_next(el_renderer *renderer);
 
 /* The counters of the frame under way, or of the last one. */
 const el_stats *el_frame_stats(const el_renderer *renderer);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -28,6 +28,10 @@
 
 #include "geometry/mesh.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum el_elm_status {
     EL_ELM_OK = 0,
     EL_ELM_NOT_ELM = -1,   /* no magic: another kind of file, or misaligned bytes */
@@ -43,5 +47,9 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
 
 /* One line in English that says what is wrong. */
 const char *el_elm_message(el_elm_status status);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

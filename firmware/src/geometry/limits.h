@@ -12,7 +12,9 @@
 #endif
 #define EL_SUBPIXELS (1 << EL_SUBPIXEL_BITS)
 
-_Static_assert(EL_SUBPIXEL_BITS == 4 || EL_SUBPIXEL_BITS == 6 || EL_SUBPIXEL_BITS == 8, "4, 6 or 8");
+#if EL_SUBPIXEL_BITS != 4 && EL_SUBPIXEL_BITS != 6 && EL_SUBPIXEL_BITS != 8
+#error "EL_SUBPIXEL_BITS is 4, 6 or 8"
+#endif
 
 #if EL_SUBPIXEL_BITS == 4
 typedef int16_t el_coordinate; /* on the screen, 1/EL_SUBPIXELS px */
@@ -26,8 +28,6 @@ enum {
     EL_GUARD_PX = 2040,   /* projected vertices lie within +-2040 px of the screen's origin */
     EL_GUARD_SUB = EL_GUARD_PX * EL_SUBPIXELS
 };
-
-_Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
 
 /* The largest depth of a vertex. 65535 is left for "nothing drawn", so that what lies on the far plane is drawn. */
 #define EL_DEPTH_MAX 65534

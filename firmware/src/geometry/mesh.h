@@ -6,6 +6,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The most that a mesh can have. Triangle indices above are reserved. */
 enum { EL_MESH_MAX_TRIANGLES = 61440, EL_MESH_MAX_VERTICES = 65535 };
 
@@ -33,5 +37,9 @@ typedef struct el_mesh {
     int16_t centre[3];       /* bounding sphere, in position units */
     uint16_t radius;         /* rounded up; every vertex lies within it */
 } el_mesh;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

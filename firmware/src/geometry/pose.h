@@ -11,6 +11,10 @@
 #include "base/angle.h"
 #include "base/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define EL_UNIT_Q16 65536
 #define EL_UNIT_Q30 (1 << 30)
 
@@ -49,5 +53,9 @@ typedef struct el_camera {
  * EL_ERROR_CAMERA when eye and target coincide or `up` points along the view; the camera is unchanged then. */
 el_status el_camera_look_at(el_camera *camera, const int32_t eye_q16[3], const int32_t target_q16[3],
                             const int32_t up_q16[3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,6 +2,8 @@
 
 #include "base/fixed.h"
 
+_Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
+
 /* Position of models and cameras, Q16.16: +-16384 units. */
 #define MAX_POSITION_Q16 (1 << 30)
 

@@ -16,6 +16,10 @@
 #include "geometry/mesh.h"
 #include "geometry/pose.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* A positive factor: mantissa * 2^-exponent, mantissa in [2^30, 2^31). */
 typedef struct el_factor {
     uint32_t mantissa;
@@ -96,5 +100,9 @@ uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);
 /* Perspective division, viewport, snapping (to nearest, ties to the right and down) and depth.
  * Pre: el_outcode has no bit of EL_CODE_CLIP. Sets all but code. */
 void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -10,14 +10,11 @@
 
 #include "base/bus.h"
 #include "base/sink.h"
+#include "panel/panel.h"
 
-/* How the module is mounted, as seen by the viewer. Its upper edge is the one away from the flat cable. */
-typedef enum el_rotation {
-    EL_ROTATION_0,   /* upright, 240x320 */
-    EL_ROTATION_90,  /* upper edge on the left, 320x240 */
-    EL_ROTATION_180, /* upside down, 240x320 */
-    EL_ROTATION_270  /* upper edge on the right, 320x240 */
-} el_rotation;
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { EL_ILI9341_COLUMNS = 240, EL_ILI9341_ROWS = 320 };
 
@@ -46,5 +43,9 @@ void el_ili9341_init(el_ili9341 *panel, const el_ili9341_config *config);
 
 /* A sink whose frames are at most the rotated glass in size. It refers to `panel`. */
 el_sink el_ili9341_sink(el_ili9341 *panel);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

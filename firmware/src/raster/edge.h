@@ -15,6 +15,10 @@
 
 #include "geometry/limits.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct el_edge {
     int32_t x;          /* first pixel not left of the edge on this row; within +-2041 on the edge's own rows */
     int32_t step;       /* floor(dx / dy) */
@@ -77,5 +81,9 @@ static inline void el_edge_next_row(el_edge *edge)
         edge->x++;
     }
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -18,6 +18,10 @@
 #include "raster/material.h"
 #include "raster/triangle.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
 
 typedef enum el_record_kind {
@@ -124,5 +128,9 @@ void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, ui
 
 /* What is needed to set up a record's triangle: its corners with all attributes, and its surface. */
 void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

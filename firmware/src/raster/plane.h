@@ -12,6 +12,10 @@
 #include "base/divide.h"
 #include "geometry/limits.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct el_plane {
     uint64_t row; /* value at the centre of pixel 0 of the current row */
     uint64_t dx;  /* per pixel to the right */
@@ -51,5 +55,9 @@ static inline int64_t el_doubled_area(const int32_t x[3], const int32_t y[3])
 {
     return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

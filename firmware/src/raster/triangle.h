@@ -13,6 +13,10 @@
 #include "raster/material.h"
 #include "raster/plane.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The planes of each shading, in this order. */
 enum {
     EL_PLANE_Z = 0,   /* depth */
@@ -95,5 +99,9 @@ typedef struct el_sample {
 /* The values that el_triangle_draw has at pixel x of the triangle's next row, on a screen of `width` pixels: what its
  * loop arrives at after as many steps. Pre: the pixel is covered. */
 void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -15,6 +15,10 @@
 
 #include "base/cobs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     EL_PACKET_HELLO = 0x01,
     EL_PACKET_START = 0x02,
@@ -91,5 +95,9 @@ typedef struct el_packet_reader {
 int el_packet_feed(el_packet_reader *reader, uint8_t byte, el_packet *packet);
 
 uint16_t el_packet_get_u16(const uint8_t *bytes);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

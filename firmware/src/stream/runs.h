@@ -11,6 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Bytes of tokens and literals of a line of `width` pixels, at most. A run of two costs what two literals cost and one
  * token more for the literals behind it, so runs never add to the bill; splitting 129 literals does. */
 #define EL_RUNS_LINE_MAX_BYTES(width) (2 * (width) + ((width) + 127) / 128)
@@ -33,5 +37,9 @@ static inline uint32_t el_runs_literals(uint8_t token)
  * writes more than budget_bytes / 3 tokens, since each has a literal. */
 int32_t el_runs_encode(const uint16_t *pixels, uint32_t width, size_t budget_bytes, uint8_t *tokens,
                        uint32_t *literals);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

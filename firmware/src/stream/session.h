@@ -30,6 +30,10 @@
 #include "stream/packet.h"
 #include "stream/runs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     EL_STREAM_PATIENCE_US = 1000000, /* all of the session's time limits, and the time between two HELLO */
     EL_STREAM_MAX_SIZE = 2040,       /* width and height, in pixels */
@@ -147,5 +151,9 @@ bool el_stream_push(el_stream *stream);
 
 /* Makes lines y0..y1-1 due; y0 <= y1 <= height. */
 void el_stream_make_due(el_stream *stream, uint32_t y0, uint32_t y1);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -14,7 +14,15 @@
 #include "base/sink.h"
 #include "stream/session.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The sink of `stream`, which must outlive it. One renderer per stream. */
 el_sink el_stream_sink(el_stream *stream);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
