@@ -73,7 +73,7 @@ typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
     uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
     uint16_t band_lines;   /* lines per band, 1..height */
-    uint16_t background;   /* RGB565 */
+    uint16_t background;   /* RGB565; may be changed in the renderer between frames */
     uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; 0: 3, an eighth */
     void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
