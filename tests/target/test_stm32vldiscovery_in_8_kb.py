@@ -124,8 +124,8 @@ FAULTS = {
     "SPI1.*clock": {BOARD: [("RCC_APB2ENR_PORT_A | RCC_APB2ENR_SPI1 |", "RCC_APB2ENR_PORT_A |")]},
     "pixels differ": {DRIVER: [("        set_units(panel, 0, ", "        set_units(panel, 1, ")]},
 }
-"""What must be said -> the fault: D/C changes when the bytes are out already; no wait for room; a chip select that is never low; a part
-without its clock; a window that begins one page too low."""
+"""What must be said -> the fault: D/C changes when the bytes are out already; no wait for room; a chip select that is
+never low; a part without its clock; a window that begins one page too low."""
 
 
 @pytest.mark.parametrize("complaint", FAULTS)
