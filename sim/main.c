@@ -25,7 +25,10 @@ static const struct {
      "               [--panel NAME [--rotation DEGREES]]\n"
      "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE]"},
     {"look", el_command_look, "--panel NAME [--rotation DEGREES] TRACE [--png FILE] [--raw FILE]"},
-    {"memory", el_command_memory, "[--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]"},
+    {"memory", el_command_memory,
+     "[--panel NAME] [--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]\n"
+     "               [--shading flat|gouraud|textured] [--stream]"},
+    {"budget", el_command_budget, "as memory; the same as JSON, and the wire's bytes"},
     {"coverage", el_command_coverage, "IN OUT"},
     {"attributes", el_command_attributes, "IN OUT"},
     {"methods", el_command_methods, "[--seed N] [--count N] [--json FILE] [--csv FILE] [--png FILE]"},

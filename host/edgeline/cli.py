@@ -18,6 +18,7 @@ from dataclasses import asdict
 from typing import NoReturn
 
 from edgeline import bench_plot, discovery
+from edgeline.budget_command import add_parser as add_budget_parser
 from edgeline.convert.command import add_parser as add_convert_parser
 from edgeline.errors import EdgelineError, StreamEndError
 from edgeline.link import FRAME_TIMEOUT_S, HELLO_TIMEOUT_S, Link
@@ -101,6 +102,7 @@ def _parser() -> argparse.ArgumentParser:
     command.set_defaults(func=_record)
 
     add_convert_parser(commands)
+    add_budget_parser(commands)
 
     command = commands.add_parser("bench", help="a chart of run time against error", epilog=EXIT_CODES)
     command.add_argument(

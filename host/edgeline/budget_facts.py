@@ -1,0 +1,139 @@
+"""What `edgeline budget` knows of the firmware. Made by host/make_budget.py; do not edit."""
+
+# ruff: noqa: PLR0917 (parameters are those of the macros)
+
+EL_BUDGET_STACK_BYTES = 2048
+EL_LIST_MAX_BYTES = 524280
+EL_MAX_HEIGHT = 2040
+EL_MAX_WIDTH = 2040
+EL_MESH_MAX_VERTICES = 65535
+EL_MIN_LIST_BYTES = 512
+EL_PACKET_OVERHEAD_BYTES = 6
+EL_RUN_BYTES = 32
+EL_STREAM_BAND_HEADER_BYTES = 8
+EL_STREAM_WIRE_BYTES = 512
+EL_SUBPIXEL_BITS = 4
+EL_TEXTURED_TRIANGLE_BYTES = 32
+EL_TRIANGLE_BYTES = 24
+EL_VERTEX_BYTES = 10
+
+STRUCT_BYTES: dict[int, dict[str, int]] = {
+    32: {"el_renderer": 280, "el_tft": 52, "el_oled": 40, "el_stream": 740},
+    64: {"el_renderer": 344, "el_tft": 88, "el_oled": 64, "el_stream": 824},
+}
+"""By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
+
+FRAMES_SOURCE = "tests/bench/run --all, arm-none-eabi-gcc 12.2.1, QEMU 7.2.22"
+
+FRAMES: dict[str, tuple[str, dict[str, int]]] = {
+    "S1": ("sphere of 1,024 triangles, Gouraud, depth", {"cortex-m0plus": 7323782, "cortex-m4f": 3270951}),
+    "S2": ("room of 12 triangles, textured, full screen, depth", {"cortex-m0plus": 16518461, "cortex-m4f": 6969174}),
+    "S2-no-depth": ("S2 without depth", {"cortex-m0plus": 15046979, "cortex-m4f": 5941902}),
+    "S3": ("4,000 small triangles, flat, depth", {"cortex-m0plus": 46911460, "cortex-m4f": 15313758}),
+    "S4": (
+        "4,000 triangles of which 403 are on the screen, flat, depth",
+        {"cortex-m0plus": 21761230, "cortex-m4f": 5621274},
+    ),
+    "teapot": ("Newell's teapot, lit, Gouraud-shaded", {"cortex-m0plus": 15854686, "cortex-m4f": 6346753}),
+    "room": ("two textured rooms to walk through", {"cortex-m0plus": 39546245, "cortex-m4f": 14497147}),
+    "solid": ("a truncated icosahedron, one colour per face", {"cortex-m0plus": 2831870, "cortex-m4f": 1817536}),
+    "field": ("an island of 2,592 small flat triangles", {"cortex-m0plus": 22404400, "cortex-m4f": 8451784}),
+}
+"""Of scenes at 320 x 240: what they are, and instructions of their first frame by core."""
+
+CODE_SOURCE = ""
+CODE_OPTIONS: dict[str, int] = {}
+"""Bytes of the renderer by its options; empty where they are not measured."""
+CODE_PANELS: dict[str, int] = {}
+CODE_STREAM = 0
+CODE_LIBC = 0
+
+
+def el_bin_bytes(height: int, band_lines: int) -> int:
+    """EL_BIN_BYTES of frame/renderer.h."""
+    return el_round_up_8(2 * ((height + band_lines - 1) // band_lines))
+
+
+def el_colour_band_bytes(width: int, band_lines: int) -> int:
+    """EL_COLOUR_BAND_BYTES of frame/renderer.h."""
+    return el_round_up_8(2 * width * band_lines)
+
+
+def el_depth_band_bytes(width: int, band_lines: int) -> int:
+    """EL_DEPTH_BAND_BYTES of frame/renderer.h."""
+    return el_round_up_8(2 * width * band_lines)
+
+
+def el_max_of(a: int, b: int) -> int:
+    """EL_MAX_OF of frame/renderer.h."""
+    return a if a > b else b
+
+
+def el_memory_bytes(width: int, height: int, band_lines: int, vertices: int, triangles: int, draws: int) -> int:
+    """EL_MEMORY_BYTES of frame/renderer.h."""
+    return el_max_of(
+        el_min_memory_bytes(width, height, band_lines),
+        2 * el_colour_band_bytes(width, band_lines)
+        + el_bin_bytes(height, band_lines)
+        + el_max_of(el_depth_band_bytes(width, band_lines), el_round_up_8(vertices * EL_VERTEX_BYTES))
+        + triangles * EL_TEXTURED_TRIANGLE_BYTES
+        + draws * EL_RUN_BYTES
+        + EL_MIN_LIST_BYTES // 2
+        + 16,
+    )
+
+
+def el_min_memory_bytes(width: int, height: int, band_lines: int) -> int:
+    """EL_MIN_MEMORY_BYTES of frame/renderer.h."""
+    return (
+        2 * el_colour_band_bytes(width, band_lines)
+        + el_bin_bytes(height, band_lines)
+        + el_depth_band_bytes(width, band_lines)
+        + EL_MIN_LIST_BYTES
+        + 8
+    )
+
+
+def el_round_up_8(bytes: int) -> int:
+    """EL_ROUND_UP_8 of frame/renderer.h."""
+    return (bytes + 7) // 8 * 8
+
+
+def el_runs_line_max_bytes(width: int) -> int:
+    """EL_RUNS_LINE_MAX_BYTES of stream/runs.h."""
+    return 2 * width + (width + 127) // 128
+
+
+def el_ssd0323_memory_bytes(band_lines: int) -> int:
+    """EL_SSD0323_MEMORY_BYTES of panel/ssd0323.h."""
+    return 2 * 64 * band_lines
+
+
+def el_ssd1306_memory_bytes(band_lines: int) -> int:
+    """EL_SSD1306_MEMORY_BYTES of panel/ssd1306.h."""
+    return 2 * 128 * el_ssd1306_pages(band_lines)
+
+
+def el_ssd1306_pages(band_lines: int) -> int:
+    """EL_SSD1306_PAGES of panel/ssd1306.h."""
+    return 1 if 8 % band_lines == 0 else band_lines // 8 if band_lines % 8 == 0 else (band_lines + 14) // 8
+
+
+def el_stream_line_packet_bytes(width: int) -> int:
+    """EL_STREAM_LINE_PACKET_BYTES of stream/session.h."""
+    return EL_PACKET_OVERHEAD_BYTES + EL_STREAM_BAND_HEADER_BYTES + el_runs_line_max_bytes(width)
+
+
+def el_stream_memory_bytes(width: int, height: int) -> int:
+    """EL_STREAM_MEMORY_BYTES of stream/session.h."""
+    return 3 + 4 * height + (height + 7) // 8 + el_stream_token_bytes(width)
+
+
+def el_stream_packet_bytes(width: int) -> int:
+    """EL_STREAM_PACKET_BYTES of stream/session.h."""
+    return el_stream_line_packet_bytes(width) if el_stream_line_packet_bytes(width) > 1024 else 1024
+
+
+def el_stream_token_bytes(width: int) -> int:
+    """EL_STREAM_TOKEN_BYTES of stream/session.h."""
+    return el_stream_packet_bytes(width) // 3
