@@ -9,6 +9,8 @@
 #ifndef EDGELINE_H
 #define EDGELINE_H
 
+#include "base/machine.h" /* first */
+
 #include "base/angle.h"
 #include "base/bus.h"
 #include "base/dither.h"

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "base/machine.h"
+
 _Static_assert((-3 >> 1) == -2, "Edgeline needs arithmetic right shifts");
 
 /* Bits of x: 0 for 0, 32 for x >= 2^31. */

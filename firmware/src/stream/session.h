@@ -73,7 +73,7 @@ enum {
 /* The largest packet before COBS: about 1 KB, since longer ones gain little and cost more when they are damaged; and
  * one line, whatever it holds. */
 #define EL_STREAM_LINE_PACKET_BYTES(width)                                                                             \
-    (EL_PACKET_OVERHEAD_BYTES + EL_STREAM_BAND_HEADER_BYTES + EL_RUNS_LINE_MAX_BYTES(width))
+    (EL_PACKET_OVERHEAD_BYTES + (int)EL_STREAM_BAND_HEADER_BYTES + EL_RUNS_LINE_MAX_BYTES(width))
 #define EL_STREAM_PACKET_BYTES(width)                                                                                  \
     (EL_STREAM_LINE_PACKET_BYTES(width) > 1024 ? EL_STREAM_LINE_PACKET_BYTES(width) : 1024)
 
