@@ -25,17 +25,27 @@ static wide exact_times_area(const el_corner corners[3], const int64_t values[3]
     return sum;
 }
 
-/* Within 2^-19 of the exact value, in Q32. */
+/* Within 2^-19 of the exact value, in Q32; the plane's value is that of column `at`. */
 static void expect_value(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
-                         const el_plane *plane, int32_t column, int32_t row)
+                         const el_plane *plane, int32_t at, int32_t column, int32_t row)
 {
     const int64_t area = reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y);
     const wide exact_q32 = exact_times_area(corners, values, column, row) * ((wide)1 << (32 - fraction_bits)) / area;
-    const int64_t got_q32 = (int64_t)(plane->row + plane->dx * (uint64_t)(int64_t)column);
+    const int64_t got_q32 = (int64_t)(plane->value + el_plane_times(plane->dx, column - at));
     const int64_t error_q32 = (int64_t)((uint64_t)got_q32 - (uint64_t)exact_q32);
     if (error_q32 > 1 << 13 || error_q32 < -(1 << 13)) {
         fail_at(s, "pixel (%d, %d) is off by %lld * 2^-32", (int)column, (int)row, (long long)error_q32);
     }
+}
+
+static el_plane_frame frame_at(const int32_t x[3], const int32_t y[3], int32_t column, int32_t row, int32_t step)
+{
+    el_plane_frame frame;
+    el_plane_frame_make(&frame, x, y);
+    frame.x = column;
+    frame.row = row;
+    frame.step = step;
+    return frame;
 }
 
 static void expect_plane(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
@@ -43,23 +53,26 @@ static void expect_plane(const seeded *s, const el_corner corners[3], const int6
 {
     const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
     const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
-    el_plane_frame frame;
+    /* The left edge's whole step: of any size while the column stays on the screen's side of 2^31. */
+    const int32_t step = (int32_t)(s->round % 7) * 40000 - 120000;
+    int32_t at = first_column;
+    el_plane_frame frame = frame_at(x, y, at, first_row, step);
     el_plane walked;
-    el_plane_frame_make(&frame, x, y, first_row);
     el_plane_make(&walked, &frame, values, fraction_bits);
     for (int32_t row = first_row; row <= last_row; row++) {
         el_plane direct;
-        el_plane_frame_make(&frame, x, y, row);
+        frame = frame_at(x, y, at, row, step);
         el_plane_make(&direct, &frame, values, fraction_bits);
-        if (direct.row != walked.row || direct.dx != walked.dx || direct.dy != walked.dy) {
+        if (direct.value != walked.value || direct.dx != walked.dx || direct.down != walked.down) {
             fail_at(s, "row %d differs from the walk", (int)row);
         }
         for (int32_t column = first_column; column <= last_column; column++) {
             if (reference_covers(corners, column, row)) {
-                expect_value(s, corners, values, fraction_bits, &walked, column, row);
+                expect_value(s, corners, values, fraction_bits, &walked, at, column, row);
             }
         }
-        walked.row += walked.dy;
+        walked.value += walked.down;
+        at += step;
     }
 }
 
@@ -80,13 +93,12 @@ static void test_a_ramp(void)
     static const int32_t x[3] = {0, 16 * EL_SUBPIXELS, 0};
     static const int32_t y[3] = {0, 0, 16 * EL_SUBPIXELS};
     static const int64_t values[3] = {0, 16, 0};
-    el_plane_frame frame;
+    const el_plane_frame frame = frame_at(x, y, 0, 3, 2);
     el_plane plane;
-    el_plane_frame_make(&frame, x, y, 3);
     el_plane_make(&plane, &frame, values, 0);
     TEST_ASSERT_EQUAL_HEX64(1ULL << 32, plane.dx);
-    TEST_ASSERT_EQUAL_HEX64(0, plane.dy);
-    TEST_ASSERT_EQUAL_HEX64(1ULL << 31, plane.row);
+    TEST_ASSERT_EQUAL_HEX64(2ULL << 32, plane.down);
+    TEST_ASSERT_EQUAL_HEX64(1ULL << 31, plane.value);
 }
 
 static void test_planes_seeded(void)

@@ -365,8 +365,8 @@ static int32_t form_value(const el_transform *transform, unsigned i, const int16
 {
     /* Three products below 2^46 and an offset below 2^62. */
     const int32_t *row = transform->rows[i];
-    const int64_t sum =
-        transform->offsets[i] + (int64_t)row[0] * p[0] + (int64_t)row[1] * p[1] + (int64_t)row[2] * p[2];
+    const int64_t sum = transform->offsets[i] + el_product_i32_i16(row[0], p[0]) + el_product_i32_i16(row[1], p[1]) +
+                        el_product_i32_i16(row[2], p[2]);
     return (int32_t)(sum >> transform->shift);
 }
 
