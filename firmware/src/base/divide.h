@@ -65,11 +65,27 @@ static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
     const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
     const unsigned shift = divisor->shift;
     uint32_t rest;
-    const uint32_t whole = el_divide_words(shift == 0 ? 0U : magnitude >> (32U - shift), magnitude << shift, divisor, &rest);
+    const uint32_t whole =
+        el_divide_words(shift == 0 ? 0U : magnitude >> (32U - shift), magnitude << shift, divisor, &rest);
     const uint32_t fraction = el_divide_words(rest, 0, divisor, &rest);
     const uint64_t quotient = (uint64_t)whole << 32 | fraction;
     return n < 0 ? 0 - quotient : quotient;
 }
+
+/* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
+enum { EL_SHORT_DIVISOR = 511 };
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+extern const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
+static inline uint32_t el_reciprocal_of_short(uint32_t d)
+{
+    return el_reciprocals[d];
+}
+#else
+static inline uint32_t el_reciprocal_of_short(uint32_t d)
+{
+    return 0xFFFFFFFFU / d;
+}
+#endif
 
 /* floor(2^32 n / d) for 1 <= d < 2^16, |n| < 2^31, |n / d| < 2^31: the whole part, then twice 16 bits of the fraction. */
 static inline int64_t el_ratio_q32(int32_t n, uint32_t d)

@@ -42,16 +42,34 @@ static inline int32_t el_edge_x(const el_edge *edge)
     return (int32_t)(edge->x_q32 >> 32);
 }
 
+#if EL_SUBPIXEL_BITS == 4
+/* Edges up to 511 units high and 1023 wide: a product with a reciprocal instead of three divisions. The step is too low by
+ * less than |dx| + 1 units, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
+ * 525,314 units. */
+enum { EL_EDGE_SHORT = 511, EL_EDGE_NARROW = 1023 };
+
+static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
+{
+    if (dy > EL_EDGE_SHORT || (uint32_t)(dx + EL_EDGE_NARROW) > 2U * EL_EDGE_NARROW) {
+        return el_ratio_q32(dx, dy);
+    }
+    const uint32_t reciprocal = el_reciprocal_of_short(dy);
+    return dx >= 0 ? (int64_t)el_multiply_u64(reciprocal, dx)
+                   : -(int64_t)el_multiply_u64((uint64_t)reciprocal + 1U, -dx);
+}
+#endif
+
 /* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within
  * +-EL_GUARD_SUB, y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
 static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
-    const int32_t dx = x1 - x0;            /* |dx| <= 2 * EL_GUARD_SUB */
+    const int32_t dx = x1 - x0;              /* |dx| <= 2 * EL_GUARD_SUB */
     const uint32_t dy = (uint32_t)(y1 - y0); /* 1 to 2 * EL_GUARD_SUB */
     const int32_t half = EL_SUBPIXELS / 2;
-    const int32_t down = row * EL_SUBPIXELS + half - y0; /* 0 to 2 * EL_GUARD_SUB, from the corner to the row's centre */
+    const int32_t down =
+        row * EL_SUBPIXELS + half - y0; /* 0 to 2 * EL_GUARD_SUB, from the corner to the row's centre */
 #if EL_SUBPIXEL_BITS == 4
-    edge->step_q32 = el_ratio_q32(dx, dy);
+    edge->step_q32 = el_edge_step_q32(dx, dy);
     /* (x0 - half + down dx / dy) / 16, rounded up: 16 steps are below 2^49, `down` of them below 2^61. */
     const int64_t aside = (int64_t)el_multiply_u64((uint64_t)edge->step_q32, down) >> EL_SUBPIXEL_BITS;
     edge->x_q32 = (int64_t)((x0 - half) * (int64_t)(1 << (32 - EL_SUBPIXEL_BITS))) + aside + 0xFFFFFFFFLL;

@@ -104,7 +104,8 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
         corners[i].y = point->y;
         corners[i].z = point->z;
     }
-    const bool turned = (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 && el_shows_back(draw, el_doubled_area(x, y));
+    const bool turned =
+        (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 && el_shows_back(draw, el_doubled_area(x, y));
 
     if (run->kind != EL_RECORD_PLAIN) {
         gather_w((const el_record_perspective *)(const void *)record, corners);

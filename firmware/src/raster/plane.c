@@ -20,8 +20,8 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
     const int64_t area = el_doubled_area(x, y);
     frame->sign = area < 0 ? -1 : 1;
 #if EL_SUBPIXEL_BITS == 4
-    frame->small = within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) &&
-                   within_small(frame->dy2);
+    frame->small =
+        within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) && within_small(frame->dy2);
     frame->area = el_divisor_make((uint32_t)el_abs_u64(area));
 #else
     frame->small = false;

@@ -88,7 +88,8 @@ static inline int64_t el_doubled_area(const int32_t x[3], const int32_t y[3])
 #if defined(__ARM_ARCH_6M__)
     /* Most differences are within +-2^14, and both products below 2^29 then. */
     const uint32_t bias = 1U << 14;
-    if ((((uint32_t)dx1 + bias) | ((uint32_t)dy1 + bias) | ((uint32_t)dx2 + bias) | ((uint32_t)dy2 + bias)) >> 15 == 0) {
+    if ((((uint32_t)dx1 + bias) | ((uint32_t)dy1 + bias) | ((uint32_t)dx2 + bias) | ((uint32_t)dy2 + bias)) >> 15 ==
+        0) {
         return dx1 * dy2 - dx2 * dy1;
     }
 #endif

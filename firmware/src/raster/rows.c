@@ -20,7 +20,7 @@
  * 32-bit core that costs one addition more than 16.16 and saves the shift, and it makes the plane exact at every pixel of
  * the widest screen. */
 typedef struct span {
-    uint64_t z, z_step; /* Q32, its half added */
+    uint64_t z, z_step;        /* Q32, its half added */
     uint32_t red, green, blue; /* 8.24 modulo 2^32, their half added */
     uint32_t red_step, green_step, blue_step;
 } span;
@@ -131,9 +131,8 @@ static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsign
     const uint32_t y = (uint32_t)triangle->y;
     for (int32_t i = r.x - r.x_end; i < 0; i++) {
         if (passes(&s, &depth[i], kind)) {
-            colour[i] = (kind & COLOURS) != 0
-                            ? coloured(&s, el_dither_threshold_q16((uint32_t)(r.x_end + i), y), kind)
-                            : flat;
+            colour[i] =
+                (kind & COLOURS) != 0 ? coloured(&s, el_dither_threshold_q16((uint32_t)(r.x_end + i), y), kind) : flat;
         }
         span_step(&s, kind);
     }

@@ -105,9 +105,8 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     } else {
         const int32_t w = (int32_t)whole(walk->w);
         const int32_t w_step_q4 = (int32_t)((int64_t)p->w.dx >> 28);
-        const int32_t curvature =
-            el_max_i32(curvature_q8(walk->u, &p->u, w, w_step_q4, p->u_shift),
-                       curvature_q8(walk->v, &p->v, w, w_step_q4, p->v_shift));
+        const int32_t curvature = el_max_i32(curvature_q8(walk->u, &p->u, w, w_step_q4, p->u_shift),
+                                             curvature_q8(walk->v, &p->v, w, w_step_q4, p->v_shift));
         const int32_t w_step = log2_ceil_q8(el_abs_u64(w_step_q4) + 1U);
         /* 4 bits of fraction twice, 16 bits of u and v. */
         const int32_t product_q8 = curvature + w_step - (4 + 4 + 16) * 256;

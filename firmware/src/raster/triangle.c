@@ -63,7 +63,8 @@ static void divide_texture_coordinate(const int32_t coordinates_q16[3], const ui
     }
 }
 
-static void make_perspective(el_perspective *perspective, const el_corner *const corners[3], const el_plane_frame *frame)
+static void make_perspective(el_perspective *perspective, const el_corner *const corners[3],
+                             const el_plane_frame *frame)
 {
     int32_t u_q16[3];
     int32_t v_q16[3];

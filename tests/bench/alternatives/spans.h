@@ -72,14 +72,14 @@ BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigne
 }
 
 /* The `run` of a case, NAME_case, that draws with SPAN. Whether it records is decided here, once. */
-#define SPAN_CASE(span_name, values, span)                                                                     \
+#define SPAN_CASE(span_name, values, span)                                                                             \
     static void span_name##_case(const bench_case *self, int32_t *record)                                              \
     {                                                                                                                  \
         const el_surface surface = surface_of(self);                                                                   \
         if (record != NULL) {                                                                                          \
-            draw_all(&surface, self->triangles, values, record, span);                                         \
+            draw_all(&surface, self->triangles, values, record, span);                                                 \
         } else {                                                                                                       \
-            draw_all(&surface, self->triangles, values, NULL, span);                                           \
+            draw_all(&surface, self->triangles, values, NULL, span);                                                   \
         }                                                                                                              \
     }
 
