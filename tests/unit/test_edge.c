@@ -87,6 +87,22 @@ static void test_edges_in_the_guard_band_seeded(void)
     }
 }
 
+/* Up to where edges are short (with 4 bits), and a little beyond. */
+static void test_short_edges(void)
+{
+    enum { SHORT = 32 * EL_SUBPIXELS, NARROW = 64 * EL_SUBPIXELS };
+    for (seeded s = seeded_from(41); s.round < 20000; s.round++) {
+        const int32_t x = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
+        const int32_t y = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
+        const int32_t beside = (int32_t)any_between(&s, -2, 2);
+        const int32_t dx =
+            any_below(&s, 2) == 0 ? NARROW - beside : (int32_t)any_signed_of_bits(&s, 6 + EL_SUBPIXEL_BITS);
+        const int32_t dy = any_below(&s, 2) == 0 ? SHORT - beside : (int32_t)any_of_bits(&s, 5 + EL_SUBPIXEL_BITS) + 1;
+        expect_edge(&s, x, y, x + dx, y + dy);
+        expect_edge(&s, x, y, x - dx, y + dy);
+    }
+}
+
 static void test_longest_edges(void)
 {
     static const int32_t ends[] = {-EL_GUARD_SUB, -EL_GUARD_SUB + 1, 0, EL_GUARD_SUB - 1, EL_GUARD_SUB};
@@ -106,6 +122,7 @@ int main(void)
     RUN_TEST(test_first_centres);
     RUN_TEST(test_a_diagonal);
     RUN_TEST(test_edges_in_the_guard_band_seeded);
+    RUN_TEST(test_short_edges);
     RUN_TEST(test_longest_edges);
     return UNITY_END();
 }

@@ -118,6 +118,70 @@ static void test_planes_seeded(void)
     }
 }
 
+static int64_t magnitude_of(int64_t value)
+{
+    return value < 0 ? -value : value;
+}
+
+/* Depth and colours take a short way for small triangles: depth is the plane that the long way makes, to the last bit; a
+ * channel is within 2^-12, and has its half. */
+static void expect_short_ways(const seeded *s, const el_corner corners[3], const uint16_t depths[3],
+                              const uint16_t colours[3])
+{
+    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
+    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
+    const el_plane_frame frame = frame_at(x, y, 3, 5, (int32_t)(s->round % 9) - 4);
+    const int64_t wide_depths[3] = {depths[0], depths[1], depths[2]};
+    const int64_t wide_colours[3] = {colours[0], colours[1], colours[2]};
+    el_plane expected;
+    el_plane got;
+    el_plane_make(&expected, &frame, wide_depths, 0);
+    el_plane_make_u16(&got, &frame, depths);
+    if (got.value != expected.value || got.dx != expected.dx || got.down != expected.down) {
+        fail_at(s, "the plane of 16 bits differs");
+    }
+    el_plane plane;
+    el_channel channel;
+    el_plane_make(&plane, &frame, wide_colours, 0);
+    el_channel_make(&channel, &frame, colours);
+    for (int32_t row = 5; row < 13; row++) {
+        for (int32_t column = 0; column < 8; column++) {
+            const int32_t aside = column - 3 - (row - 5) * frame.step;
+            const uint64_t exact = plane.value + plane.down * (uint64_t)(row - 5) + plane.dx * (uint64_t)(int64_t)aside;
+            const uint32_t value =
+                channel.value + channel.down * (uint32_t)(row - 5) + channel.dx * (uint32_t)aside - EL_CHANNEL_HALF;
+            const int32_t error = (int32_t)(value - (uint32_t)(exact >> 16));
+            if (magnitude_of(error) > 4080) {
+                fail_at(s, "pixel (%d, %d) is off by %d * 2^-24", (int)column, (int)row, (int)error);
+            }
+        }
+    }
+}
+
+static void test_depth_and_colours_of_small_triangles(void)
+{
+    static const uint16_t ends[] = {0, 255 * 256, 65535};
+    for (seeded s = seeded_from(51); s.round < 50000; s.round++) {
+        el_corner corners[3];
+        uint16_t depths[3];
+        uint16_t colours[3];
+        const bool extreme = any_below(&s, 2) == 0;
+        for (unsigned i = 0; i < 3; i++) {
+            const int32_t reach = 64 * EL_SUBPIXELS - 2 + (int32_t)any_below(&s, 4);
+            corners[i] = any_corner(&s, 8 * EL_SUBPIXELS, 32 * EL_SUBPIXELS);
+            if (extreme && i > 0) {
+                corners[i].x = corners[0].x + (any_below(&s, 2) == 0 ? reach : -reach);
+                corners[i].y = corners[0].y + (any_below(&s, 2) == 0 ? reach : -reach);
+            }
+            depths[i] = any_below(&s, 2) == 0 ? ends[2 * any_below(&s, 2)] : (uint16_t)any_u64(&s);
+            colours[i] = any_below(&s, 2) == 0 ? ends[any_below(&s, 2)] : (uint16_t)any_between(&s, 0, 255 * 256);
+        }
+        if (reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y) != 0) {
+            expect_short_ways(&s, corners, depths, colours);
+        }
+    }
+}
+
 /* The whole guard band and the whole range of values, at its far corners. */
 static void test_largest_planes(void)
 {
@@ -149,6 +213,7 @@ int main(void)
     RUN_TEST(test_areas_and_their_sign);
     RUN_TEST(test_a_ramp);
     RUN_TEST(test_planes_seeded);
+    RUN_TEST(test_depth_and_colours_of_small_triangles);
     RUN_TEST(test_largest_planes);
     return UNITY_END();
 }
