@@ -1,4 +1,4 @@
-"""What callers may rely on about division, after test_division_is_exact has proven it."""
+"""What callers may rely on about division and products, after the proofs that are named for them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from c_execution import Machine
 from c_values import Cell, Number, Pointer
-from symbolic import Poly
+from symbolic import Poly, require
 
 WORD = 1 << 32
 
@@ -88,6 +88,14 @@ def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
     path.prove(d - 1, "el_reciprocal_of_short: d >= 1")
     path.prove(machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]) - d, "el_reciprocal_of_short: d is short")
     return machine.exactly("uint32_t", path.new_quotient(Poly.of(WORD - 1), d, 0, WORD - 1))
+
+
+def plane_times(machine: Machine, arguments: list[Any]) -> Number:
+    """el_plane_times: gradient * count modulo 2^64. Pre: |count| < 2^22 (test_products_are_exact)."""
+    gradient, count = (argument.poly for argument in arguments)
+    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
+    turns = machine.path.atom("turns", -(2**90), 2**90)
+    return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
 
 
 DIVISION = {

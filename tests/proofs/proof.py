@@ -215,7 +215,9 @@ def _agree(subject: Subject, bits: int, count: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         library = FilePath(folder) / "subject.so"
         companions = [str(SOURCES / name) for name in COMPANIONS[subject.file]]
-        compile_c(text, library, "-shared", "-fPIC", f"-DEL_SUBPIXEL_BITS={bits}", *core_options(subject.core), *companions)
+        compile_c(
+            text, library, "-shared", "-fPIC", f"-DEL_SUBPIXEL_BITS={bits}", *core_options(subject.core), *companions
+        )
         function = getattr(ctypes.CDLL(str(library)), f"proof_{subject.function}")
         for _, given, expected in samples:
             words = (ctypes.c_longlong * (len(given) + 1))(*(_signed(value or 0) for value in given))

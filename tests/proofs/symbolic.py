@@ -381,7 +381,8 @@ class Path:
         # So does a common factor.
         common = math.gcd(divisor, *poly.terms.values())
         if common > 1:
-            poly, divisor = Poly({monomial: factor // common for monomial, factor in poly.terms.items()}), divisor // common
+            divisor //= common
+            poly = Poly({monomial: factor // common for monomial, factor in poly.terms.items()})
         low, high = self.bounds(poly)
         if low // divisor == high // divisor:
             return Poly.of(low // divisor)

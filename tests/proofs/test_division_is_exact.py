@@ -349,8 +349,7 @@ WIDE_RATIO = Subject(
     lemmas={"el_wide_ratio_q32.quotient": whole_lemma},
 )
 SUBJECTS = {
-    subject.function: subject
-    for subject in (WORDS, U64, FLOOR, Q32, I32_Q32, WIDE, MAKE, SHORT, RATIO, WIDE_RATIO)
+    subject.function: subject for subject in (WORDS, U64, FLOOR, Q32, I32_Q32, WIDE, MAKE, SHORT, RATIO, WIDE_RATIO)
 }
 
 

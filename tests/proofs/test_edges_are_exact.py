@@ -35,7 +35,7 @@ import pytest
 
 import contracts
 from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, ProofError, Subject, congruent
-from symbolic import Infeasible, Path, require
+from symbolic import Infeasible, Path
 
 FILE = "raster/triangle.c"
 EDGE = "raster/edge.h"
@@ -98,16 +98,22 @@ def make_domain(machine: Machine) -> list[Any]:
 
 
 def step_of(machine: Machine, arguments: list[Any]) -> Number:
-    """el_edge_step_q32: the path's own part of the domain, proven below for all of it."""
+    """el_edge_step_q32, proven below: of its edge's direction, and too low by e."""
     dx, dy = (argument.poly for argument in arguments)
-    step = machine.path.atom("step", -(2**63), 2**63 - 1)
-    _assume_step(machine, dx, dy, step)
+    path = machine.path
+    step = path.atom("step", -(2**63), 2**63 - 1)
+    for bound in _step_errors(machine, dx, dy, step):
+        path.assume(bound)
+    path.assume(step if path.holds(dx) else -step - 1)
     return machine.exactly("int64_t", step)
+
+
+SHORT = ("EL_EDGE_SHORT", "EL_EDGE_NARROW")
 
 
 def is_short(machine: Machine, dx: Poly, dy: Poly) -> bool:
     path = machine.path
-    short, narrow = (machine.constant(machine.unit.constants[name]) for name in ("EL_EDGE_SHORT", "EL_EDGE_NARROW"))
+    short, narrow = (machine.constant(machine.unit.constants[name]) for name in SHORT)
     return (
         path.decide(short - dy, dy - short - 1)
         and path.decide(narrow - dx, dx - narrow - 1)
@@ -123,13 +129,6 @@ def _step_errors(machine: Machine, dx: Poly, dy: Poly, step: Poly) -> list[Poly]
         return [e, dy - 1 - e]
     magnitude = dx if path.holds(dx) else -dx
     return [e, magnitude * dy - e]
-
-
-def _assume_step(machine: Machine, dx: Poly, dy: Poly, step: Poly) -> None:
-    for bound in _step_errors(machine, dx, dy, step):
-        machine.path.assume(bound)
-    sign = dx if machine.path.holds(dx) else -dx
-    machine.path.assume(step if sign.terms == dx.terms else -step - 1)
 
 
 def times(machine: Machine, arguments: list[Any]) -> Number:
@@ -150,8 +149,9 @@ def times(machine: Machine, arguments: list[Any]) -> Number:
     return machine.exactly("uint64_t", product + RING)
 
 
-def cut_off(machine: Machine, ends: Ends, edge: Any, k: Poly, t: Poly, n: Poly) -> tuple[Poly, Poly, Poly]:
+def cut_off(machine: Machine, ends: Ends, edge: Any, stepped: tuple[Poly, Poly, Poly]) -> tuple[Poly, Poly, Poly]:
     """g, the number that it divides, and D; that D has the parts that it should."""
+    k, t, n = stepped
     x_q32, step = machine.poly(edge, "x_q32"), machine.poly(edge, "step_q32")
     dx, dy, s, path = ends.dx, ends.dy, ends.scale, machine.path
     e = dx * WORD - step * dy
@@ -189,29 +189,28 @@ def make_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     ends = ENDS.pop(id(path))
     edge = arguments[0].cell
     k, t, n = ends.stepped(machine)
-    step, dx, dy = machine.poly(edge, "step_q32"), ends.dx, ends.dy
-    grid, number, d = cut_off(machine, ends, edge, k, t, n)
+    dx, dy = ends.dx, ends.dy
+    grid, number, d = cut_off(machine, ends, edge, (k, t, n))
     path.prove(d, "D >= 0")
+    step = machine.poly(edge, "step_q32")
     e = dx * WORD - step * dy
-    rows = t if ends.scale == 16 else k
     if ends.scale == 16 and is_short(machine, dx, dy):
-        # e t <= |dx| dy (dy - 1) <= 1023 * 511 * 510.
+        # e t <= |dx| dy (dy - 1).
+        short, narrow = (machine.constant(machine.unit.constants[name]) for name in SHORT)
         magnitude = dx if path.holds(dx) else -dx
-        require(1023 * 511 * 510 + 15 * 511 <= WORD - 16 * 511, "D <= 2^32 - g")
-        area = path.atom("|dx| dy", 0, 1023 * 511)
-        path.assume_product(1023 - magnitude, dy)
-        path.prove(1023 * 511 - magnitude * dy, "|dx| dy")
+        area = path.atom("|dx| dy", 0, narrow * short)
+        path.assume_product(narrow - magnitude, dy)
+        path.prove(narrow * short - magnitude * dy, "|dx| dy")
         path.assume(area - magnitude * dy, zero=True)
-        path.assume_product(area - e, rows)
-        path.assume_product(1023 * 511 - area, rows)
-        path.prove(510 - rows, "t < 511")
-        path.prove(WORD - grid - d, "D <= 2^32 - g")
+        path.assume_product(area - e, t)
+        path.assume_product(narrow * short - area, t)
+        path.prove(short - 1 - t, "t < dy")
     else:
-        path.assume_product(dy - 1 - e, rows)
+        path.assume_product(dy - 1 - e, t if ends.scale == 16 else k)
         path.assume_product(dy, dy - 1 - t)
         path.assume_product(2 * ends.guard - dy, dy)
         path.assume_product(dy, 4079 - k)
-        path.prove(WORD - grid - d, "D <= 2^32 - g")
+    path.prove(WORD - grid - d, "D <= 2^32 - g")
 
     # The whole part.
     x = machine.poly(edge, "x_q32") + step * k
@@ -396,7 +395,7 @@ def test_the_proof_of_steps_can_fail(old: str, new: str) -> None:
 
 
 def coverage(bias: int) -> Subject:
-    """Any edge and any pixel: as two paths, E >= 0 and E < 0. The C rounds up: n and S dy - 1, divided; its bias is 1."""
+    """Any edge and any pixel: as two paths, E >= 0 and E < 0. Rounding up n / (S dy) takes a bias of 1."""
 
     def domain(machine: Machine) -> list[Any]:
         path = machine.path

@@ -7,12 +7,12 @@ Snapping. With m = |c| <= w and P = 2^(31 - s), m R = 2^32 ratio + f gives
 
     2^(32 + s) (m P - w ratio) = 2^s w f + m k,    so 0 <= m P - w ratio < 3/2 w.
 
-Times half that is the sum before rounding, which the C has too low by 0 to 2 half units. Where its fraction F of P units
-is neither 0 nor that near to the next whole number, 2 m half + w lies strictly between 2 w o and 2 w (o + 1), o being
-its whole part: the nearest, and no tie, so that the sign may be put on afterwards.
+Times half that is the sum before rounding, which the C has too low by 0 to 2 half units. Where its fraction F of P
+units is neither 0 nor that near to the next whole number, 2 m half + w lies strictly between 2 w o and 2 w (o + 1), o
+being its whole part: the nearest, and no tie, so that the sign may be put on afterwards.
 
-Depth. near = n 2^near_shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N count.
-n R = 2^32 ratio + f gives
+Depth. near = n 2^near_shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N
+count. n R = 2^32 ratio + f gives
 
     2^32 (2^31 n - ratio N) = f N + n k,    so 0 <= 2^31 n - ratio N < 2 N,
 
@@ -36,7 +36,7 @@ I32 = (-(2**31), 2**31 - 1)
 
 
 def normalised_reciprocal(machine: Machine, n: Poly) -> tuple[Poly, Poly]:
-    """R, and k = 2^63 - R N in 1..N: what test_the_half_reciprocal proves."""
+    """R, and k = 2^63 - R N in 1..N: what prove_half proves of project_inside."""
     path = machine.path
     r = path.atom("R", 2**31, WORD - 1)
     k = 2**63 - r * n
@@ -131,7 +131,8 @@ class Exact:
 def prove_half(machine: Machine, divisor: Pointer, r: Poly) -> None:
     """1 <= 2^63 - R N <= N and 2^31 <= R."""
     path = machine.path
-    n, v, w = machine.poly(divisor.cell, "normalised"), machine.poly(divisor.cell, "reciprocal"), contracts.divisor_of(divisor)
+    n, v = (machine.poly(divisor.cell, name) for name in ("normalised", "reciprocal"))
+    w = contracts.divisor_of(divisor)
     bit = v + WORD - r * 2
     path.prove(bit, "R is half of v + 2^32, cut off")
     path.prove(1 - bit, "R is half of v + 2^32, cut off")
@@ -243,7 +244,7 @@ def offset_lemma(machine: Machine, offset: Number) -> Number:
 
 def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """As test_vertices_keep_their_bounds has it for snap: the nearest, ties up."""
-    m, w, half, _, _ = SNAPS.pop(id(machine.path))
+    _, w, half, _, _ = SNAPS.pop(id(machine.path))
     path = machine.path
     if result.poly.constant == 0:
         return
@@ -373,9 +374,8 @@ def test_every_vertex(name: str) -> None:
 
 
 @pytest.mark.parametrize("bits", [6, 8])
-@pytest.mark.parametrize("name", ["snap", "inside"])
-def test_every_vertex_with_more_bits(name: str, bits: int) -> None:
-    SUBJECTS[name].prove(bits)
+def test_snapping_with_more_bits(bits: int) -> None:
+    SNAP.prove(bits)
 
 
 @EVERY_PRECISION

@@ -1,8 +1,8 @@
 """raster/rows, raster/gather: what is stepped along a span and down the rows, light, and the packing of a pixel.
 
-A plane is followed along the left edge: at the row's first pixel, X = floor(x), it has V = V0 + dx X + dy j, modulo 2^64.
-A row further, x grows by the step, X by the step's whole part and by 1 where the fraction runs over, and so does V. Where
-the left edge bends, V and what is added per row change as X and its step do. Channels do the same modulo 2^32.
+A plane is followed along the left edge: at the row's first pixel, X = floor(x), it has V = V0 + dx X + dy j, modulo
+2^64. A row further, x grows by the step, X by the step's whole part and by 1 where the fraction runs over, and so does
+V. Where the left edge bends, V and what is added per row change as X and its step do. Channels do the same modulo 2^32.
 
 Depth is its plane's value, in Q32 modulo 2^64, and 1/2 and a little more than the plane's own error of less than 8161
 units of 2^-32 (see test_planes_are_exact_modulo_2_64). So it is never below the true value and 1/2, and above by less
@@ -18,6 +18,7 @@ from typing import Any
 
 import pytest
 
+import contracts
 from c_values import ArrayType, Cell, Memory
 from proof import Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from symbolic import Infeasible, require
@@ -81,7 +82,8 @@ def kind(machine: Machine, *names: str) -> Number:
 
 
 def span_domain(machine: Machine) -> list[Any]:
-    return [Pointer([any_triangle(machine)]), machine.number("int32_t", "skipped", 0, 4080), kind(machine, "DEPTH", "COLOURS")]
+    skipped = machine.number("int32_t", "skipped", 0, 4080)
+    return [Pointer([any_triangle(machine)]), skipped, kind(machine, "DEPTH", "COLOURS")]
 
 
 def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
@@ -108,16 +110,14 @@ def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
         congruent(machine.poly(result, stepped), before[name] + numbers[name][1], modulus(name), "a step adds it")
 
 
-def plane_times(machine: Machine, arguments: list[Any]) -> Number:
-    """el_plane_times: gradient * count modulo 2^64, |count| < 2^22 (test_products_are_exact)."""
-    gradient, count = (argument.poly for argument in arguments)
-    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
-    return machine.exactly("uint64_t", gradient * count - machine.path.atom("k", -(2**90), 2**90) * RING)
-
-
 SPAN_MODULAR = ["span_begin", "span_step"]
 SPAN = Subject(
-    ROWS, "span_begin", span_domain, span_check, modular=SPAN_MODULAR, contracts={"el_plane_times": plane_times}
+    ROWS,
+    "span_begin",
+    span_domain,
+    span_check,
+    modular=SPAN_MODULAR,
+    contracts={"el_plane_times": contracts.plane_times},
 )
 
 # --- down the rows ----------------------------------------------------------------------------------------------------
@@ -133,7 +133,8 @@ def walk_domain(machine: Machine) -> list[Any]:
     triangle = any_triangle(machine)
     edges = {}
     for name in ("left", "right", "lower"):
-        x, step = path.atom(f"{name}.x", -2041 - 2 * guard, 2041 + 2 * guard), path.atom(f"{name}.step", -2 * guard, 2 * guard)
+        x = path.atom(f"{name}.x", -2041 - 2 * guard, 2041 + 2 * guard)
+        step = path.atom(f"{name}.step", -2 * guard, 2 * guard)
         fraction, part = path.atom(f"{name}.fraction", 0, WORD - 1), path.atom(f"{name}.part", 0, WORD - 1)
         machine.put(triangle.content[name].content["x_q32"], x * WORD + fraction)
         machine.put(triangle.content[name].content["step_q32"], step * WORD + part)
@@ -178,7 +179,7 @@ def bend_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 WALK_MODULAR = ["plane_next_row", "channel_next_row", "next_row", "bend_plane", "bend", "el_plane_times"]
 ROW = Subject(ROWS, "next_row", walk_domain, row_check, modular=WALK_MODULAR)
 BEND = Subject(
-    ROWS, "bend", walk_domain, bend_check, modular=WALK_MODULAR, contracts={"el_plane_times": plane_times}
+    ROWS, "bend", walk_domain, bend_check, modular=WALK_MODULAR, contracts={"el_plane_times": contracts.plane_times}
 )
 
 # --- a pixel ----------------------------------------------------------------------------------------------------------
@@ -342,7 +343,9 @@ def test_all_values(name: str) -> None:
     SUBJECTS[name].prove()
 
 
-@pytest.mark.parametrize("name", ["span", "row", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"])
+@pytest.mark.parametrize(
+    "name", ["span", "row", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
+)
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
     modular = [*subject.modular, *SPAN_MODULAR, *WALK_MODULAR, "el_multiply_u64"]

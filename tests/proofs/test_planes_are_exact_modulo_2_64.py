@@ -24,6 +24,7 @@ from typing import Any
 
 import pytest
 
+import contracts
 from c_values import IntType
 from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown, congruent
 from symbolic import require
@@ -118,13 +119,6 @@ State = tuple[list[Poly], list[Poly], list[Poly], Poly, Poly, Poly, Poly, Quotie
 STATES: dict[int, State] = {}
 
 
-def times(machine: Machine, arguments: list[Any]) -> Number:
-    """el_plane_times: gradient * count modulo 2^64, |count| < 2^22 (test_products_are_exact)."""
-    gradient, count = (argument.poly for argument in arguments)
-    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
-    return machine.exactly("uint64_t", gradient * count - machine.path.atom("k", -(2**90), 2**90) * RING)
-
-
 def anchored(machine: Machine, arguments: list[Any]) -> Any:
     """anchor_of, executed; the way to its pixel's centre as two unknowns, half a pixel at most."""
     others = machine.contracts
@@ -174,7 +168,7 @@ def prepared(machine: Machine, values: list[Poly], corner: Any, small: bool) -> 
         "anchor_of": anchored,
         "divide": quotients.divide,
         "el_divide_i32_q32": quotients.divide,
-        "el_plane_times": times,
+        "el_plane_times": contracts.plane_times,
     }
     machine.contracts = {} if area.constant is not None else exact
     first_x, first_row, step, magnitude = numbers
@@ -203,7 +197,8 @@ def small_corners(machine: Machine) -> Any:
         return x, y, area
     most = machine.constant(machine.unit.constants["EL_SMALL_SUB"])
     differences = [path.atom(name, -most, most) for name in ("dx1", "dx2", "dy1", "dy2")]
-    x, y = ([corner[0], *(corner[0] + d for d in pair)] for corner, pair in zip((x, y), (differences[:2], differences[2:]), strict=True))
+    x = [x[0], x[0] + differences[0], x[0] + differences[1]]
+    y = [y[0], y[0] + differences[2], y[0] + differences[3]]
     return x, y, (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
 
 
@@ -239,8 +234,10 @@ def check_quotients(machine: Machine, frame: Any, f: int) -> tuple[Poly, Poly]:
     d = [value - values[0] for value in values]
     a = (d[1] * (y[2] - y[0]) - d[2] * (y[1] - y[0])) * sign
     b = (d[2] * (x[1] - x[0]) - d[1] * (x[2] - x[0])) * sign
-    made = {name: number.poly for name, number in machine.locals.items() if name.endswith(("_gradient.a", "_gradient.b"))}
-    a_unknown, b_unknown = (next(made[name] for name in made if name.endswith(end)) for end in (".a", ".b"))
+    a_unknown, b_unknown = (
+        next(number.poly for name, number in machine.locals.items() if name.endswith(f"_gradient.{axis}"))
+        for axis in "ab"
+    )
     path.prove(a_unknown - a, "a", zero=True)
     path.prove(b_unknown - b, "b", zero=True)
     path.prove(for_x - a_unknown * scale, "the dividend of dx", zero=True)
@@ -423,7 +420,7 @@ def test_the_proof_can_fail(bits: int) -> None:
 
 def test_the_proof_of_small_triangles_can_fail() -> None:
     """Twice the size would overflow; a term too few is found as in the wide way."""
-    depth(True).fails_with(Fault("raster/plane.h", "EL_SUBPIXEL_BITS == 4 ? 1023 : -1", "EL_SUBPIXEL_BITS == 4 ? 1025 : -1"))
+    depth(True).fails_with(Fault("raster/plane.h", "4 ? 1023 : -1", "4 ? 1025 : -1"))
     FRAME.fails_with(Fault(FILE, "<= 2U * EL_SMALL_SUB", "<= 2U * EL_SMALL_SUB + 1U"))
     text = "g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y"
     depth(True).fails_with(Fault(FILE, text, text.replace("b * at->to_centre_y", "b * at->to_centre_x")))

@@ -2,8 +2,8 @@
 
 el_transform_position's domain is what el_transform_make promises. All that comes after it is proven for any clip
 coordinates of 32 bits, also those of a mesh whose bounding sphere is a lie: el_outcode first, then el_project for the
-vertices that it found inside, and the clip for the others; el_transform_vertex, which most vertices take, has the same results
-(test_fast_vertices_are_exact).
+vertices that it found inside, and the clip for the others. What most vertices take, el_transform_vertex, has the same
+results: see test_fast_vertices_are_exact.
 
 A cut takes t = da / (da - db) in [0, 1] as Q31, so mix() stays between its ends, and nothing that is mixed grows. The
 product in mix() is below (2^32 - 1) 2^31 + 2^30 < 2^63.

@@ -451,7 +451,7 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
 }
 
 #if !defined(__OPTIMIZE_SIZE__)
-/* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.4 units of 2^(s - 31), s being
+/* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.5 units of 2^(s - 31), s being
  * the divisor's shift. Times `half` that is the result's magnitude with 31 - s bits of fraction, too low by less than
  * 2 half units. False where that might matter: near a tie, and for a w of few bits. */
 static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
@@ -474,9 +474,9 @@ static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor
 /* The largest shift with which 2 half units are a fraction: half < 2^14 * EL_SUBPIXELS / 16. */
 enum { FAST_SHIFT = 30 - 14 - (EL_SUBPIXEL_BITS - 4) };
 
-/* depth_of without the last bits: near / w from 31 bits of the reciprocal and 32 of near, with at least 31 bits of
- * fraction, too low by less than 3 units; so scale * near / w, Q12 + 31, by less than 3 * 2^32, 3 of the 2^11 units that
- * are kept; and depth_of's own rounding of the ratio is less than one of them. */
+/* depth_of without the last bits: near / w from 31 bits of the reciprocal and all of near's, with at least 31 bits
+ * of fraction, too low by less than 2 units; so scale * near / w, Q12 + 31, by less than 2 * 2^32, 2 of the 2^11 units that
+ * are kept, and 1 more that is cut off; and depth_of's own rounding of the ratio is less than one of them. */
 static inline bool depth_fast(const el_transform *transform, const el_divisor *divisor, uint32_t reciprocal,
                               uint16_t *result)
 {

@@ -44,7 +44,7 @@ static inline int32_t el_edge_x(const el_edge *edge)
 
 #if EL_SUBPIXEL_BITS == 4
 /* Edges up to 511 units high and 1023 wide: a product with a reciprocal instead of three divisions. The step is too low by
- * less than |dx| + 1 units, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
+ * |dx| units at most, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
  * 525,314 units. */
 enum { EL_EDGE_SHORT = 511, EL_EDGE_NARROW = 1023 };
 
@@ -70,7 +70,7 @@ static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x
         row * EL_SUBPIXELS + half - y0; /* 0 to 2 * EL_GUARD_SUB, from the corner to the row's centre */
 #if EL_SUBPIXEL_BITS == 4
     edge->step_q32 = el_edge_step_q32(dx, dy);
-    /* (x0 - half + down dx / dy) / 16, rounded up: 16 steps are below 2^49, `down` of them below 2^61. */
+    /* (x0 - half + down dx / dy) / 16, rounded up; down < dy, so `down` steps are below 2^32 |dx| + 2^17 < 2^49. */
     const int64_t aside = (int64_t)el_multiply_u64((uint64_t)edge->step_q32, down) >> EL_SUBPIXEL_BITS;
     edge->x_q32 = (int64_t)((x0 - half) * (int64_t)(1 << (32 - EL_SUBPIXEL_BITS))) + aside + 0xFFFFFFFFLL;
 #else

@@ -71,7 +71,7 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
 /* The channel through values[i], 0 to 255 in 8.8. */
 void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3]);
 
-/* A plane's gradient times a number of pixels or rows. */
+/* A plane's gradient times a number of pixels or rows, modulo 2^64; |count| < 2^22. */
 static inline uint64_t el_plane_times(uint64_t gradient, int32_t count)
 {
     return (uint32_t)(count + 0xFFFF) <= 2U * 0xFFFFU ? el_multiply_u64(gradient, count)

@@ -1,7 +1,7 @@
 /* One triangle under way: set up at a row, then drawn row by row through as many bands as it touches.
  *
- * Everything is exact or modulo 2^n, so a triangle that is set up at row 100 has the same state as one that was set up at
- * row 0 and walked there: pixels do not depend on bands. */
+ * Everything that pixels come from is exact or modulo 2^n, so a triangle that is set up at row 100 draws the same as one that
+ * was set up at row 0 and walked there: pixels do not depend on bands. */
 #ifndef EL_RASTER_TRIANGLE_H
 #define EL_RASTER_TRIANGLE_H
 
