@@ -67,8 +67,7 @@ typedef struct el_transform {
     int32_t far;        /* likewise, or INT32_MAX */
     int32_t constant_w; /* orthographic: w of every vertex */
     uint64_t near_q32;  /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
-    uint32_t
-        near_bits; /* near_q32 is near_bits << near_shift, -11..30, with its top bit set: cameras give it 31 bits */
+    uint32_t near_bits; /* near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras give near 31 bits */
     int8_t near_shift;
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
     uint8_t depth_shift;
