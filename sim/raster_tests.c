@@ -124,8 +124,8 @@ static bool sample(const el_corner corners[3], int32_t x, int32_t y, FILE *out)
         .shading = EL_SHADE_TEXTURED_GOURAUD, .depth = true, .uv_error_log2 = 3, .texture = &texture};
     el_triangle triangle;
     el_sample values;
-    if (!el_triangle_setup(&triangle, corners, &surface, y) || triangle.y != y || x < triangle.edges[0].x ||
-        x >= triangle.edges[1].x) {
+    if (!el_triangle_setup(&triangle, corners, &surface, y) || triangle.y != y || x < el_edge_x(&triangle.left) ||
+        x >= el_edge_x(&triangle.right)) {
         return false;
     }
     el_triangle_sample(&triangle, x, EL_MAX_WIDTH, &values);

@@ -56,7 +56,7 @@ uint32_t el_polygon_scanline(const el_polygon *polygon, el_fill_rule rule, el_hi
 
 typedef struct table_edge {
     el_rows rows;
-    el_edge walk; /* its crossing with the row under way, stepped with quotient and remainder */
+    el_edge walk; /* its crossing with the row under way, stepped exactly */
     int32_t turn;
 } table_edge;
 
@@ -99,7 +99,7 @@ uint32_t el_polygon_active_edges(const el_polygon *polygon, el_fill_rule rule, e
         for (size_t i = 1; i < active_count; i++) {
             table_edge *const moved = active[i];
             size_t place = i;
-            for (; place > 0 && active[place - 1]->walk.x > moved->walk.x; place--) {
+            for (; place > 0 && el_edge_x(&active[place - 1]->walk) > el_edge_x(&moved->walk); place--) {
                 active[place] = active[place - 1];
             }
             active[place] = moved;
@@ -107,7 +107,7 @@ uint32_t el_polygon_active_edges(const el_polygon *polygon, el_fill_rule rule, e
         crossing crossings[EL_POLYGON_EDGES];
         size_t kept = 0;
         for (size_t i = 0; i < active_count; i++) {
-            crossings[i] = (crossing){active[i]->walk.x, active[i]->turn};
+            crossings[i] = (crossing){el_edge_x(&active[i]->walk), active[i]->turn};
         }
         written += fill_row(crossings, active_count, rule, row, hits);
         for (size_t i = 0; i < active_count; i++) {

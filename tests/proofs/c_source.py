@@ -1,7 +1,8 @@
 """The firmware's C, as syntax trees: what the proofs execute is the source itself.
 
-A unit is one source file with all that it includes, as the C preprocessor leaves it for a given EL_SUBPIXEL_BITS. A
-seeded fault is a unit in which one piece of text, which must occur exactly once, was replaced.
+A unit is one source file with all that it includes, as the C preprocessor leaves it for a given EL_SUBPIXEL_BITS and
+a core that it may be written differently for. A seeded fault is a unit in which one piece of text, which must occur
+exactly once, was replaced.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from pathlib import Path
 from pycparser import c_ast, c_parser
 
 SOURCES = Path(__file__).resolve().parents[2] / "firmware" / "src"
+
+# The macro of cores without a 32 x 32 -> 64 bit product and without a divider: some arithmetic is written for them.
+ARMV6M = "__ARM_ARCH_6M__"
 
 # The compiler's own headers use extensions that the parser does not know.
 HEADERS = {
@@ -80,12 +84,18 @@ def faulty_tree(folder: Path, fault: Fault) -> Path:
     return folder
 
 
-def _preprocess(tree: Path, file: str, subpixel_bits: int) -> str:
+def core_options(core: str) -> list[str]:
+    """What tells the preprocessor the core; "" for any."""
+    return [f"-D{core}"] if core else []
+
+
+def _preprocess(tree: Path, file: str, subpixel_bits: int, core: str) -> str:
     with tempfile.TemporaryDirectory() as stubs:
         for name, text in HEADERS.items():
             (Path(stubs) / name).write_text(text, encoding="utf-8")
         command = ["cc", "-E", "-std=c11", "-nostdinc", "-I", stubs, "-I", str(tree)]
-        command += [f"-DEL_SUBPIXEL_BITS={subpixel_bits}", str(tree / file)]
+        # Attributes ask for inlining and the like; the parser does not know them.
+        command += [f"-DEL_SUBPIXEL_BITS={subpixel_bits}", "-D__attribute__(x)=", *core_options(core), str(tree / file)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"the preprocessor refuses {file}: {done.stderr}"
     return done.stdout
@@ -133,12 +143,12 @@ class _Collector(c_ast.NodeVisitor):
 
 
 @functools.cache
-def parse(file: str, subpixel_bits: int = 4, fault: Fault | None = None) -> Unit:
+def parse(file: str, subpixel_bits: int = 4, fault: Fault | None = None, core: str = "") -> Unit:
     """The unit of `file`, a path relative to firmware/src, linked with those that it calls."""
-    unit = _parse(file, subpixel_bits, fault)
+    unit = _parse(file, subpixel_bits, fault, core)
     for companion in COMPANIONS[file]:
         concerned = fault is not None and (fault.file == companion or fault.file.endswith(".h"))
-        other = _parse(companion, subpixel_bits, fault if concerned else None)
+        other = _parse(companion, subpixel_bits, fault if concerned else None, core)
         for name, function in other.functions.items():
             known = unit.functions.setdefault(name, function)
             same = (
@@ -156,12 +166,12 @@ def parse(file: str, subpixel_bits: int = 4, fault: Fault | None = None) -> Unit
 
 
 @functools.cache
-def _parse(file: str, subpixel_bits: int, fault: Fault | None) -> Unit:
+def _parse(file: str, subpixel_bits: int, fault: Fault | None, core: str) -> Unit:
     if fault is None:
-        text = _preprocess(SOURCES, file, subpixel_bits)
+        text = _preprocess(SOURCES, file, subpixel_bits, core)
     else:
         with tempfile.TemporaryDirectory() as folder:
-            text = _preprocess(faulty_tree(Path(folder), fault), file, subpixel_bits)
+            text = _preprocess(faulty_tree(Path(folder), fault), file, subpixel_bits, core)
     collector = _Collector()
     tree = c_parser.CParser().parse(text, filename=file)
     collector.visit(tree)

@@ -1,4 +1,4 @@
-"""What callers may rely on about division, after test_division.py and test_fixed_point.py have proven it."""
+"""What callers may rely on about division and products, after the proofs that are named for them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from c_execution import Machine
 from c_values import Cell, Number, Pointer
-from symbolic import Poly
+from symbolic import Poly, require
 
 WORD = 1 << 32
 
@@ -65,6 +65,37 @@ def _floor(machine: Machine, n: Poly, d: Poly, low: int, high: int) -> Poly:
     if path.holds(d * (WORD // 2) - 1 - n):
         high = min(high, WORD // 2 - 1)
     return path.new_quotient(n, d, low, high)
+
+
+def ratio_q32(machine: Machine, arguments: list[Any]) -> Number:
+    """el_ratio_q32, el_wide_ratio_q32: floor(2^32 n / d). Pre: d >= 1, |n / d| < 2^31."""
+    n, d = (argument.poly for argument in arguments)
+    path = machine.path
+    path.prove(d - 1, "the ratio's divisor is positive")
+    # A number of pixels on the screen, or any that there may be.
+    whole = 1 << (12 if path.holds(d * 4096 - 1 - n) and path.holds(n + d * 4096 - 1) else 31)
+    path.prove(d * whole - 1 - n, "n / d < 2^31")
+    path.prove(n + d * whole - 1, "-2^31 < n / d")
+    ratio = path.atom("ratio", -whole * WORD, whole * WORD - 1)
+    path.assume(n * WORD - ratio * d)
+    path.assume(ratio * d + d - 1 - n * WORD)
+    return machine.exactly("int64_t", ratio)
+
+
+def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
+    """el_reciprocal_of_short: floor((2^32 - 1) / d). Pre: 1 <= d <= EL_SHORT_DIVISOR."""
+    d, path = arguments[0].poly, machine.path
+    path.prove(d - 1, "el_reciprocal_of_short: d >= 1")
+    path.prove(machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]) - d, "el_reciprocal_of_short: d is short")
+    return machine.exactly("uint32_t", path.new_quotient(Poly.of(WORD - 1), d, 0, WORD - 1))
+
+
+def plane_times(machine: Machine, arguments: list[Any]) -> Number:
+    """el_plane_times: gradient * count modulo 2^64. Pre: |count| < 2^22 (test_products_are_exact)."""
+    gradient, count = (argument.poly for argument in arguments)
+    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
+    turns = machine.path.atom("turns", -(2**90), 2**90)
+    return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
 
 
 DIVISION = {

@@ -20,9 +20,9 @@ from typing import Any
 import pytest
 
 from c_execution import Contract, Lemma, Machine
-from c_source import COMPANIONS, SOURCES, Fault, parse
+from c_source import ARMV6M, COMPANIONS, SOURCES, Fault, core_options, parse
 from c_values import ArrayType, Cell, IntType, Number, Pointer, PointerType, StructType
-from symbolic import Fact, Infeasible, Path, Poly, ProofError, every_path
+from symbolic import Fact, Infeasible, Path, Poly, ProofError, every_path, require
 
 Domain = Callable[[Machine], list[Any]]
 Check = Callable[[Machine, list[Any], Any], None]
@@ -43,10 +43,11 @@ class Subject:
     lemmas: Mapping[str, Lemma] | None = None
     packs: bool = False
     rough: bool = False
+    core: str = ""  # as c_source.parse has it
 
     def prove(self, bits: int = 4, fault: Fault | None = None) -> int:
         """Executes the function on its whole domain; the number of paths. ProofError if anything is not proven."""
-        unit = parse(self.file, bits, fault)
+        unit = parse(self.file, bits, fault, self.core)
 
         def body(path: Path) -> None:
             contracts, lemmas = self.contracts or {}, self.lemmas or {}
@@ -108,6 +109,18 @@ def as_unknown(machine: Machine, value: Number, low: int | None = None, high: in
     unknown = path.atom("unknown", low, high)
     path.assume(unknown - value.poly, zero=True)
     return Number(value.type, unknown)
+
+
+def quotient_of(path: Path, poly: Poly, by: Poly, what: str) -> None:
+    """poly >= 0, from poly * by > -by, which the path must know already: by >= 1."""
+    path.prove(by - 1, f"{what}: the divisor is positive")
+    path.prove(poly * by + by - 1, what)
+    path.assume(poly)
+
+
+def congruent(a: Poly, b: Poly, modulus: int, what: str) -> None:
+    """a - b is a multiple of the modulus whatever the unknowns are: each of its terms is."""
+    require(all(factor % modulus == 0 for factor in (a - b).terms.values()), what)
 
 
 def _leaves(of: Any, way: str = "") -> list[tuple[str, IntType]]:
@@ -179,7 +192,7 @@ def compile_c(text: str, output: FilePath, *options: str, tree: FilePath = SOURC
 
 
 def _agree(subject: Subject, bits: int, count: int) -> None:
-    unit = parse(subject.file, bits)
+    unit = parse(subject.file, bits, core=subject.core)
     rng = random.Random(f"{subject.function} {bits}")
     samples: list[tuple[list[Any], list[int | None], list[int | None]]] = []
     tries = 0
@@ -202,7 +215,9 @@ def _agree(subject: Subject, bits: int, count: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         library = FilePath(folder) / "subject.so"
         companions = [str(SOURCES / name) for name in COMPANIONS[subject.file]]
-        compile_c(text, library, "-shared", "-fPIC", f"-DEL_SUBPIXEL_BITS={bits}", *companions)
+        compile_c(
+            text, library, "-shared", "-fPIC", f"-DEL_SUBPIXEL_BITS={bits}", *core_options(subject.core), *companions
+        )
         function = getattr(ctypes.CDLL(str(library)), f"proof_{subject.function}")
         for _, given, expected in samples:
             words = (ctypes.c_longlong * (len(given) + 1))(*(_signed(value or 0) for value in given))
@@ -227,6 +242,7 @@ def _flat(value: Any) -> list[int | None]:
 
 
 __all__ = [
+    "ARMV6M",
     "EVERY_PRECISION",
     "Fact",
     "Fault",
@@ -238,4 +254,6 @@ __all__ = [
     "Subject",
     "as_unknown",
     "compile_c",
+    "congruent",
+    "quotient_of",
 ]

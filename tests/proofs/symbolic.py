@@ -206,8 +206,8 @@ class Path:
         low, high = poly.interval()
         if high < 0 or (zero and low > 0):
             raise Infeasible
-        if low >= 0 and not zero:
-            return
+        if low >= 0 and not zero and all(len(monomial) < 2 for monomial in poly.terms):
+            return  # of a product, z3 may know less than its factors' bounds say by now
         self.facts.append(Fact(poly, zero))
         self._mentioned.update(atom for monomial in poly.terms for atom in monomial)
         self._tighten(poly, zero)
@@ -265,12 +265,18 @@ class Path:
 
     def _holds_of_quotient(self, poly: Poly) -> bool:
         """A bound of a quotient q = floor(a / b), asked of a: q >= c where a >= c b, q <= c where a < (c + 1) b."""
+        # A common factor c of all but the constant k: c x + k >= 0 is x + floor(k / c) >= 0.
+        common = math.gcd(*(factor for monomial, factor in poly.terms.items() if monomial)) or 1
+        poly = Poly({monomial: factor // common for monomial, factor in poly.terms.items()})
         found = [monomial for monomial in poly.terms if len(monomial) == 1 and monomial[0] in self.quotients]
         if len(found) != 1 or abs(poly.terms[found[0]]) != 1:
             return False
         a, b = self.quotients[found[0][0]]
         bound = poly - Poly({found[0]: poly.terms[found[0]]})
-        return self.holds(a + bound * b if poly.terms[found[0]] > 0 else b * (bound + 1) - 1 - a)
+        holds = self.holds(a + bound * b if poly.terms[found[0]] > 0 else b * (bound + 1) - 1 - a)
+        if holds and bound.constant is not None:
+            self.assume(poly)
+        return holds
 
     def _answer(self, *negated: z3.BoolRef) -> z3.CheckSatResult:
         self._solver.push()
@@ -372,6 +378,11 @@ class Path:
         whole = Poly({monomial: factor // divisor for monomial, factor in poly.terms.items() if factor % divisor == 0})
         if whole.terms:
             return whole + self.floor(poly - whole * divisor, divisor)
+        # So does a common factor.
+        common = math.gcd(divisor, *poly.terms.values())
+        if common > 1:
+            divisor //= common
+            poly = Poly({monomial: factor // common for monomial, factor in poly.terms.items()})
         low, high = self.bounds(poly)
         if low // divisor == high // divisor:
             return Poly.of(low // divisor)

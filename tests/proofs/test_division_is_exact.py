@@ -58,7 +58,7 @@ def test_the_reciprocal_of_every_normalised_divisor(tmp_path: FilePath) -> None:
     assert every_divisor(tmp_path, SOURCES) == ""
 
 
-@pytest.mark.parametrize(("old", "new"), [("(d >> 11) + 1U", "(d >> 11)"), ("v1 * e) >> 33", "v1 * e) >> 34")])
+@pytest.mark.parametrize(("old", "new"), [("(d >> 11) + 1U", "(d >> 11)"), ("(v1, e) >> 33", "(v1, e) >> 34")])
 def test_the_check_of_every_divisor_can_fail(tmp_path: FilePath, old: str, new: str) -> None:
     tree = faulty_tree(tmp_path / "tree", Fault(FILE, old, new))
     assert every_divisor(tmp_path, tree).startswith("the reciprocal of")
@@ -206,40 +206,90 @@ def wide_domain(machine: Machine) -> list[Any]:
     return [n, machine.number("uint32_t", "fraction"), machine.number("uint64_t", "d", 1, 2**47 - 1)]
 
 
+def i32_q32_domain(machine: Machine) -> list[Any]:
+    return [machine.number("int32_t", "n", -(2**31) + 1), any_divisor(machine)]
+
+
+def short_domain(machine: Machine) -> list[Any]:
+    return [machine.number("uint32_t", "d", 1, machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]))]
+
+
+def short_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    rest = B - 1 - result.poly * arguments[0].poly
+    machine.path.prove(rest, "r d <= 2^32 - 1")
+    machine.path.prove(arguments[0].poly - 1 - rest, "2^32 - 1 < (r + 1) d")
+
+
+def ratio_domain(c_type: str, most_n: int, most_d: int) -> Any:
+    """Numbers of whose ratio the whole part fits 32 bits."""
+
+    def domain(machine: Machine) -> list[Any]:
+        n, d = machine.path.atom("n", -most_n, most_n), machine.path.atom("d", 1, most_d)
+        machine.path.assume(d * (B // 2) - 1 - n)
+        machine.path.assume(n + d * (B // 2) - 1)
+        return [machine.exactly(c_type, n), machine.exactly("uint32_t", d)]
+
+    return domain
+
+
+def whole_lemma(machine: Machine, quotient: Number) -> Number:
+    """The whole part of the ratio fits 32 bits; with or without a sign, each is easy by itself."""
+    machine.path.decide(quotient.poly, -quotient.poly - 1)
+    for bound in (B // 2 - 1 - quotient.poly, quotient.poly + B // 2 - 1):
+        machine.path.prove(bound, "|n / d| < 2^31")
+    return quotient
+
+
+def ratio_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    n, d = (argument.poly for argument in arguments)
+    rest = n * B - result.poly * d
+    machine.path.prove(rest, "q d <= 2^32 n")
+    machine.path.prove(d - 1 - rest, "2^32 n < (q + 1) d")
+
+
 class Quotients:
     """The contract of el_divide_words, remembering the quotients of a chain of them."""
 
-    def __init__(self) -> None:
+    def __init__(self, length: int) -> None:
+        self.length = length
         self.words: list[Poly] = []
 
     def divide_words(self, machine: Machine, arguments: list[Any]) -> Number:
-        if len(self.words) == 3:
+        if len(self.words) == self.length:
             self.words.clear()
         quotient = contracts.divide_words(machine, arguments)
         self.words.append(quotient.poly)
         return quotient
 
 
-CHAIN = Quotients()
+CHAIN, SHORT_CHAIN = Quotients(3), Quotients(2)
 
 
-def q32_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """The three words make Q = floor(|n| / d), and the result is Q or -Q modulo 2^64."""
-    n, fraction, divisor = arguments
+def chain_check(machine: Machine, exact: Poly, divisor: Pointer, chain: Quotients, result: Number) -> None:
+    """The words make Q = floor(|exact| / d), and the result is Q or -Q modulo 2^64."""
     path = machine.path
     d = machine.poly(divisor.cell, "normalised")
     scale = 1 << machine.path.choose(machine.poly(divisor.cell, "shift"))
-    exact = n.poly * B + fraction.poly
-    negative = not path.decide(n.poly, -n.poly - 1)
+    negative = not path.decide(exact, -exact - 1)
     magnitude = -exact if negative else exact
-    top, middle, low = CHAIN.words
-    quotient = top * B * B + middle * B + low
+    *top, middle, low = chain.words
+    quotient = sum(top, Poly.of(0)) * B * B + middle * B + low
     rest = magnitude * scale - quotient * d
     path.prove(rest, "Q d <= |n|")
     path.prove(d - 1 - rest, "|n| < (Q + 1) d")
     signed = middle * -B - low if negative else middle * B + low
     difference = result.poly - signed
     path.prove(difference - path.floor(difference, B * B) * (B * B), "the result is Q modulo 2^64", zero=True)
+
+
+def q32_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    n, fraction, divisor = arguments
+    chain_check(machine, n.poly * B + fraction.poly, divisor, CHAIN, result)
+
+
+def i32_q32_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    n, divisor = arguments
+    chain_check(machine, n.poly * B, divisor, SHORT_CHAIN, result)
 
 
 def wide_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -275,7 +325,32 @@ MAKE = Subject(
     ),
     contracts={"reciprocal_word": lambda machine, _: machine.number("uint32_t", "reciprocal")},
 )
-SUBJECTS = {subject.function: subject for subject in (WORDS, U64, FLOOR, Q32, WIDE, MAKE)}
+I32_Q32 = Subject(
+    FILE,
+    "el_divide_i32_q32",
+    i32_q32_domain,
+    i32_q32_check,
+    ["el_divide_i32_q32"],
+    {"el_divide_words": SHORT_CHAIN.divide_words},
+)
+SHORT = Subject(FILE, "el_reciprocal_of_short", short_domain, short_check)
+RATIO = Subject(
+    FILE,
+    "el_ratio_q32",
+    ratio_domain("int32_t", 2**31 - 1, 2**16 - 1),
+    ratio_check,
+    lemmas={"el_ratio_q32.quotient": whole_lemma},
+)
+WIDE_RATIO = Subject(
+    FILE,
+    "el_wide_ratio_q32",
+    ratio_domain("int64_t", 2**62, 2**31 - 1),
+    ratio_check,
+    lemmas={"el_wide_ratio_q32.quotient": whole_lemma},
+)
+SUBJECTS = {
+    subject.function: subject for subject in (WORDS, U64, FLOOR, Q32, I32_Q32, WIDE, MAKE, SHORT, RATIO, WIDE_RATIO)
+}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -296,6 +371,10 @@ def test_the_compiler_agrees(name: str) -> None:
     [
         ("el_divide_words", "if (rest >= d) {", "if (rest > d) {"),
         ("el_divide_words", "if (rest > (uint32_t)product) {", "if (rest > (uint32_t)product + 1U) {"),
+        ("el_divide_i32_q32", "magnitude >> (32U - shift)", "magnitude >> (31U - shift)"),
+        ("el_reciprocal_of_short", "0xFFFFFFFFU / d", "0xFFFFFFFFU / (d + 1U)"),
+        ("el_ratio_q32", "d - 1U - rest", "d - rest"),
+        ("el_wide_ratio_q32", "rest < 0 ? quotient - 1", "rest < 0 ? quotient"),
     ],
 )
 def test_the_proof_can_fail(name: str, old: str, new: str) -> None:

@@ -1,13 +1,15 @@
-"""raster/rows, raster/gather: what is stepped along a span, light, and the packing of a pixel.
+"""raster/rows, raster/gather: what is stepped along a span and down the rows, light, and the packing of a pixel.
 
-Depth is stepped as its plane is, in Q32 modulo 2^64: after n steps it is the plane's value there, and 1/2 and a little
-more than the plane's own error of less than 8161 units of 2^-32 (see test_planes_are_exact_modulo_2_64). So it is never
-below the true value and 1/2, and above by less than 2^-18: floored, it is between the corners' depths, as that is.
+A plane is followed along the left edge: at the row's first pixel, X = floor(x), it has V = V0 + dx X + dy j, modulo
+2^64. A row further, x grows by the step, X by the step's whole part and by 1 where the fraction runs over, and so does
+V. Where the left edge bends, V and what is added per row change as X and its step do. Channels do the same modulo 2^32.
 
-A colour is 32 bits out of the middle of its plane, and a rounded step. In units of 2^-24, modulo 2^32, it is the
-plane's at that pixel but for at most 1 for the start's floor, +- n / 2 for the step's rounding, and
-+- 1/8 for the plane's error.
-That is below 1021 for n <= 2039, 2^-14 of a unit of colour; half a unit was added, so it stays within 0..255.
+Depth is its plane's value, in Q32 modulo 2^64, and 1/2 and a little more than the plane's own error of less than 8161
+units of 2^-32 (see test_planes_are_exact_modulo_2_64). So it is never below the true value and 1/2, and above by less
+than 2^-18: floored, it is between the corners' depths, as that is.
+
+A colour is its channel's value, off by less than 4080 units of 2^-24 there; half a unit of colour was added, so it
+stays within 0..255.
 """
 
 from __future__ import annotations
@@ -16,84 +18,176 @@ from typing import Any
 
 import pytest
 
+import contracts
 from c_values import ArrayType, Cell, Memory
-from proof import Fault, Machine, Number, Pointer, Poly, Subject
+from proof import Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from symbolic import Infeasible, require
 
 ROWS, GATHER = "raster/rows.c", "raster/gather.c"
 SCREEN = 2040
-STEPS = SCREEN - 1
 PLANE_ERROR = 1 + 2 * (2 * SCREEN)  # units of 2^-32, and less
-COLOUR_ERROR = 1 + STEPS // 2 + 1  # floor, steps, and the plane's error, rounded up
+COLOUR_ERROR = 4080  # units of 2^-24, and less
 HALF_Q24 = 128 << 16
 LEAST_COLOUR, MOST_COLOUR = HALF_Q24 - COLOUR_ERROR, (255 << 24) + HALF_Q24 + COLOUR_ERROR
 RING = 1 << 64
+WORD = 1 << 32
 
 
 def test_colours_do_not_wrap() -> None:
-    assert 8 + 4 * STEPS + 1 <= 8 * COLOUR_ERROR, "1 + n / 2 + 1/8 <= COLOUR_ERROR"
-    assert PLANE_ERROR <= 1 << 13, "the plane's error is an eighth of 2^-16"
+    assert PLANE_ERROR <= 1 << 13, "HALF_Q32's little more"
     assert LEAST_COLOUR >= 0 and MOST_COLOUR < 1 << 32
 
 
-def any_plane(machine: Machine) -> Any:
-    row, dx = machine.path.atom("row", 0, RING - 1), machine.path.atom("dx", 0, RING - 1)
-    return machine.struct("el_plane", row=row, dx=dx, dy=0)
+# --- along a span -----------------------------------------------------------------------------------------------------
+
+PLANES = ("z", "perspective.w", "perspective.u", "perspective.v")
+CHANNELS = ("rgb.0", "rgb.1", "rgb.2")
 
 
-def colour_domain(machine: Machine) -> list[Any]:
-    return [Pointer([any_plane(machine)]), machine.number("int32_t", "x", 0, SCREEN - 1)]
+def member(triangle: Any, way: str) -> Any:
+    cell = triangle
+    for step in way.split("."):
+        cell = cell.content[int(step) if step.isdigit() else step]
+    return cell
 
 
-def colour_check(machine: Machine, arguments: list[Any], result: Any) -> None:
-    path = machine.path
-    plane, x = arguments
-    row, dx = machine.poly(plane.cell, "row"), machine.poly(plane.cell, "dx")
-
-    def modulo_2_48(poly: Poly) -> Poly:
-        return poly - path.floor(poly, 1 << 48) * (1 << 48)
-
-    cut_off = modulo_2_48(row + dx * x.poly - (machine.poly(result, "value") - HALF_Q24) * (1 << 16))
-    path.prove((1 << 16) - 1 - cut_off, "the start is the plane's, less than 2^-16 cut off")
-    rounding = modulo_2_48(machine.poly(result, "step") * (1 << 16) - dx + (1 << 15))
-    path.prove((1 << 16) - rounding, "the step is the plane's, within half of 2^-16")
-
-
-COLOUR = Subject(ROWS, "colour_at", colour_domain, colour_check, modular=["colour_at", "value_at"])
-
-
-def depth_domain(machine: Machine) -> list[Any]:
+def any_triangle(machine: Machine) -> Any:
+    """With any planes and channels, each of its own."""
     triangle = machine.struct("el_triangle")
-    machine.put(triangle.content["planes"].content[0], any_plane(machine))
-    kind = machine.exactly("uint32_t", machine.constant(machine.unit.constants["DEPTH"]))
-    return [Pointer([triangle]), machine.number("int32_t", "x", 0, SCREEN - 1), kind]
+    for names, most in ((PLANES, RING - 1), (CHANNELS, WORD - 1)):
+        for name in names:
+            for part in ("value", "dx", "down"):
+                machine.put(member(triangle, name).content[part], machine.path.atom(f"{name}.{part}", 0, most))
+    return triangle
 
 
-def depth_check(machine: Machine, arguments: list[Any], result: Any) -> None:
-    """The start is the plane's and 1/2 and more than its error, the step the plane's; so is each step of the loop."""
-    triangle, x, kind = arguments
-    plane = triangle.cell.content["planes"].content[0]
-    row, dx = machine.poly(plane, "row"), machine.poly(plane, "dx")
-    added = machine.poly(result, "z", "value") - row - dx * x.poly
-    half = added.terms.get((), 0) % RING
-    require(all(factor % RING == 0 for unknowns, factor in added.terms.items() if unknowns), "the plane's value, and")
-    require((1 << 31) + PLANE_ERROR <= half <= (1 << 32) - PLANE_ERROR, "a half and the plane's error")
-    path = machine.path
-    path.prove(machine.poly(result, "z", "step") - dx, "the step is the plane's", zero=True)
-    before = machine.poly(result, "z", "value")
-    machine.call("span_step", Pointer([result]), kind)
-    change = machine.poly(result, "z", "value") - before - dx
-    require(all(factor % RING == 0 for factor in change.terms.values()), "a step adds it")
+def parts(machine: Machine, triangle: Any) -> dict[str, tuple[Poly, Poly, Poly]]:
+    """value, dx and down of each plane and channel."""
+    return {
+        name: (
+            machine.poly(member(triangle, name), "value"),
+            machine.poly(member(triangle, name), "dx"),
+            machine.poly(member(triangle, name), "down"),
+        )
+        for name in (*PLANES, *CHANNELS)
+    }
 
 
-DEPTH = Subject(
-    ROWS, "span_begin", depth_domain, depth_check, modular=["span_begin", "value_at", "colour_at", "span_step"]
+def modulus(name: str) -> int:
+    return WORD if name in CHANNELS else RING
+
+
+def kind(machine: Machine, *names: str) -> Number:
+    return machine.exactly("uint32_t", sum(machine.constant(machine.unit.constants[name]) for name in names))
+
+
+def span_domain(machine: Machine) -> list[Any]:
+    skipped = machine.number("int32_t", "skipped", 0, 4080)
+    return [Pointer([any_triangle(machine)]), skipped, kind(machine, "DEPTH", "COLOURS")]
+
+
+def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
+    """The start is the value there, of depth and 1/2 and more than its error; a step of the loop adds dx."""
+    triangle, skipped, of = arguments
+    names = {"z": "z", "rgb.0": "red", "rgb.1": "green", "rgb.2": "blue"}
+    numbers = parts(machine, triangle.cell)
+    before = {}
+    for name, stepped in names.items():
+        value, dx, _ = numbers[name]
+        before[name] = machine.poly(result, stepped)
+        added = before[name] - value
+        # Depth has a path of its own for no pixel.
+        if name != "z" or machine.path.bounds(skipped.poly)[1] > 0:
+            added -= dx * skipped.poly
+        half = added.terms.get((), 0) % modulus(name)
+        congruent(added, Poly.of(half), modulus(name), "the value at the first pixel of the screen, and")
+        if name == "z":
+            require((1 << 31) + PLANE_ERROR <= half <= (1 << 32) - PLANE_ERROR, "a half and the plane's error")
+        else:
+            require(half == 0, "nothing: its half is in it")
+    machine.call("span_step", Pointer([result]), of)
+    for name, stepped in names.items():
+        congruent(machine.poly(result, stepped), before[name] + numbers[name][1], modulus(name), "a step adds it")
+
+
+SPAN_MODULAR = ["span_begin", "span_step"]
+SPAN = Subject(
+    ROWS,
+    "span_begin",
+    span_domain,
+    span_check,
+    modular=SPAN_MODULAR,
+    contracts={"el_plane_times": contracts.plane_times},
 )
 
+# --- down the rows ----------------------------------------------------------------------------------------------------
 
-def light(machine: Machine, values: list[Poly]) -> Pointer:
-    cells = [machine.struct("stepped", value=value, step=0) for value in values]
-    return Pointer(cells)
+Edge = tuple[Poly, Poly, Poly, Poly]  # whole and fraction of x, of the step
+WALKS: dict[int, tuple[dict[str, Edge], dict[str, tuple[Poly, Poly, Poly]]]] = {}
+
+
+def walk_domain(machine: Machine) -> list[Any]:
+    """Edges anywhere that a row of theirs or the row after can be, with any step."""
+    path = machine.path
+    guard = machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+    triangle = any_triangle(machine)
+    edges = {}
+    for name in ("left", "right", "lower"):
+        x = path.atom(f"{name}.x", -2041 - 2 * guard, 2041 + 2 * guard)
+        step = path.atom(f"{name}.step", -2 * guard, 2 * guard)
+        fraction, part = path.atom(f"{name}.fraction", 0, WORD - 1), path.atom(f"{name}.part", 0, WORD - 1)
+        machine.put(triangle.content[name].content["x_q32"], x * WORD + fraction)
+        machine.put(triangle.content[name].content["step_q32"], step * WORD + part)
+        edges[name] = (x, fraction, step, part)
+    machine.put(triangle.content["short_is_left"], path.choose(path.atom("short_is_left", 0, 1)))
+    WALKS[id(path)] = (edges, parts(machine, triangle))
+    return [Pointer([triangle]), kind(machine, "DEPTH", "COLOURS", "TEXTURE")]
+
+
+def row_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    path = machine.path
+    edges, before = WALKS.pop(id(path))
+    triangle = arguments[0].cell
+    for name in ("left", "right"):
+        x, fraction, step, part = edges[name]
+        moved = machine.poly(triangle, name, "x_q32") - (x + step) * WORD - fraction - part
+        path.prove(moved, "a step further", zero=True)
+    _, fraction, step, part = edges["left"]
+    carry = path.choose(path.floor(fraction + part, WORD))
+    for name, (value, dx, down) in parts(machine, triangle).items():
+        # V0 + dx X + dy j, with dy = down - dx step: X grows by the step and the carry, j by 1.
+        dy = before[name][2] - dx * step
+        congruent(value, before[name][0] + dx * (step + carry) + dy, modulus(name), "V is that of the new X")
+        require((down - before[name][2]).constant == 0, "the rest is as it was")
+
+
+def bend_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    path = machine.path
+    edges, before = WALKS.pop(id(path))
+    triangle = arguments[0].cell
+    bends = machine.poly(triangle, "short_is_left").known
+    side = "left" if bends else "right"
+    x, fraction, step, part = edges["lower"]
+    path.prove(machine.poly(triangle, side, "x_q32") - x * WORD - fraction, "the lower edge", zero=True)
+    path.prove(machine.poly(triangle, side, "step_q32") - step * WORD - part, "the lower edge", zero=True)
+    for name, (value, dx, down) in parts(machine, triangle).items():
+        aside, steeper = (x - edges["left"][0], step - edges["left"][2]) if bends else (Poly.of(0), Poly.of(0))
+        congruent(value, before[name][0] + dx * aside, modulus(name), "V is that of the new X")
+        congruent(down - dx * steeper, before[name][2], modulus(name), "dy is as it was")
+
+
+WALK_MODULAR = ["plane_next_row", "channel_next_row", "next_row", "bend_plane", "bend", "el_plane_times"]
+ROW = Subject(ROWS, "next_row", walk_domain, row_check, modular=WALK_MODULAR)
+BEND = Subject(
+    ROWS, "bend", walk_domain, bend_check, modular=WALK_MODULAR, contracts={"el_plane_times": contracts.plane_times}
+)
+
+# --- a pixel ----------------------------------------------------------------------------------------------------------
+
+
+def light(machine: Machine) -> Pointer:
+    channels = {name: machine.path.atom(name, LEAST_COLOUR, MOST_COLOUR) for name in ("red", "green", "blue")}
+    return Pointer([machine.struct("span", **channels)])
 
 
 def kind_of(machine: Machine, dither: bool) -> Number:
@@ -106,22 +200,18 @@ def threshold(machine: Machine) -> Number:
     return machine.exactly("uint32_t", k * 4096 + 2048)
 
 
-def colours(machine: Machine) -> list[Poly]:
-    return [machine.path.atom(f"light{i}", LEAST_COLOUR, MOST_COLOUR) for i in range(3)]
-
-
 def modulate_domain(dither: bool) -> Any:
     def domain(machine: Machine) -> list[Any]:
         red, green, blue = (machine.path.atom(n, 0, most) for n, most in (("red", 31), ("green", 63), ("blue", 31)))
         texel = machine.exactly("uint16_t", red * 2048 + green * 32 + blue)
-        return [texel, light(machine, colours(machine)), threshold(machine), kind_of(machine, dither)]
+        return [texel, light(machine), threshold(machine), kind_of(machine, dither)]
 
     return domain
 
 
 def coloured_domain(dither: bool) -> Any:
     def domain(machine: Machine) -> list[Any]:
-        return [light(machine, colours(machine)), threshold(machine), kind_of(machine, dither)]
+        return [light(machine), threshold(machine), kind_of(machine, dither)]
 
     return domain
 
@@ -233,8 +323,9 @@ def gather_w_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 
 
 SUBJECTS = {
-    "colour": COLOUR,
-    "depth": DEPTH,
+    "span": SPAN,
+    "row": ROW,
+    "bend": BEND,
     "modulate": modulate(False),
     "modulate, dithered": modulate(True),
     "coloured": coloured(False),
@@ -252,19 +343,27 @@ def test_all_values(name: str) -> None:
     SUBJECTS[name].prove()
 
 
-@pytest.mark.parametrize("name", ["colour", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"])
+@pytest.mark.parametrize(
+    "name", ["span", "row", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
+)
 def test_the_compiler_agrees(name: str) -> None:
-    SUBJECTS[name].agree(count=200)
+    subject = SUBJECTS[name]
+    modular = [*subject.modular, *SPAN_MODULAR, *WALK_MODULAR, "el_multiply_u64"]
+    Subject(subject.file, subject.function, subject.domain, modular=modular).agree(count=200)
 
 
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("depth", ROWS, "(1U << 13)", "(1U << 12)"),
-        ("depth", ROWS, "s->z.value += s->z.step", "s->z.value += s->z.step + 1U"),
-        ("colour", ROWS, "(plane->dx + 0x8000U) >> 16", "(plane->dx + 0x8001U) >> 16"),
-        ("modulate", ROWS, "(light[i].value >> 24) + 1U", "(light[i].value >> 24) + 10U"),
-        ("coloured", ROWS, "rgb[1].value >> 26 << 5", "rgb[1].value >> 25 << 5"),
+        ("span", ROWS, "(1U << 13)", "(1U << 12)"),
+        ("span", ROWS, "s->z += s->z_step;", "s->z += s->z_step + 1U;"),
+        ("span", ROWS, "s->green += s->green_step", "s->green += s->blue_step"),
+        ("row", ROWS, "triangle->left.x_q32 < fraction", "triangle->left.x_q32 <= fraction"),
+        ("row", ROWS, "(carry ? channel->dx : 0U)", "(carry ? 0U : channel->dx)"),
+        ("bend", ROWS, "plane->down += el_plane_times(plane->dx, steeper)", "plane->down += plane->dx"),
+        ("bend", ROWS, "bend_plane(&triangle->perspective.v, aside", "bend_plane(&triangle->perspective.u, aside"),
+        ("modulate", ROWS, "(light >> 24) + 1U", "(light >> 24) + 10U"),
+        ("coloured", ROWS, "s->green >> 26 << 5", "s->green >> 25 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
         ("texel", ROWS, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
         ("light", GATHER, "value > 0xFF00U ? 0xFF00U", "value > 0xFF01U ? 0xFF00U"),

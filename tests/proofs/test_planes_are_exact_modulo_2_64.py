@@ -1,4 +1,4 @@
-"""raster/plane: depth, colours, 1/w and coordinates over it, as planes in Q32 modulo 2^64.
+"""raster/plane: depth, 1/w and coordinates over it, as planes in Q32 modulo 2^64, and colours in 8.24 modulo 2^32.
 
 With A = |doubled area|, S = EL_SUBPIXELS, f = 2^(32 - fraction_bits), and X, Y from the first corner to a pixel's
 centre, the plane through the corners' values is f (v0 A + a X + b Y) / A. What the C has at pixel (i, j) is,
@@ -6,12 +6,16 @@ modulo 2^64,
 
     Z = f v0 + Qo + Qx (i - column) + Qy (j - row)
 
-where Qo, Qx, Qy are quotients by A, truncated. From X = S (i - column) + to_centre_x, Z A differs from the plane by
+where Qo, Qx, Qy are quotients by A, truncated: its value at the first pixel, dx to the side, and down, which is Qy and
+Qx times the left edge's whole step. From X = S (i - column) + to_centre_x, Z A differs from the plane by
 eo + ex (i - column) + ey (j - row), where an e is what a truncation cut off, below A: Z is off by less than
 1 + 4080 + 4080 units of 2^-32 on any pixel of the largest screen.
 
 At a covered pixel the plane's value is a mean of the corners' with weights that are not negative, the edge functions
 over A, so it lies between the corners' values, which fit 32 bits: that is why the modulus loses nothing.
+
+Small triangles have the same dividends in 32 bits, and so the same quotients. Of colours, 8.8, each of the three is
+rounded to 2^-24: in these units it is off by at most 1/2 + 2^-16, and the value by less than 8160 / 2 < 2^12.
 """
 
 from __future__ import annotations
@@ -20,8 +24,9 @@ from typing import Any
 
 import pytest
 
+import contracts
 from c_values import IntType
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
+from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown, congruent
 from symbolic import require
 
 FILE = "raster/plane.c"
@@ -46,8 +51,7 @@ def frame_domain(machine: Machine) -> list[Any]:
     elif not machine.path.decide(area - 1, -area):
         machine.path.assume(-area - 1)
     frame = machine.struct("el_plane_frame")
-    row = machine.number("int32_t", "row", 0, SCREEN - 1)
-    return [Pointer([frame]), machine.array("int32_t", x), machine.array("int32_t", y), row]
+    return [Pointer([frame]), machine.array("int32_t", x), machine.array("int32_t", y)]
 
 
 def area_lemma(machine: Machine, area: Number) -> Number:
@@ -62,8 +66,13 @@ def area_lemma(machine: Machine, area: Number) -> Number:
 
 
 def frame_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """|area|, as a divisor or as a number, is the doubled area."""
+    """|area|, as a divisor or as a number, is the doubled area; a small frame has small differences."""
     frame = arguments[0].cell.content
+    if machine.poly(frame["small"]).known:
+        most = machine.constant(machine.unit.constants["EL_SMALL_SUB"])
+        for name in ("dx1", "dy1", "dx2", "dy2"):
+            machine.path.prove(most - machine.poly(frame[name]), f"{name} is small")
+            machine.path.prove(most + machine.poly(frame[name]), f"{name} is small")
     area = frame["area"]
     stands_for = area.stands_for if isinstance(area.content, dict) else machine.poly(area)
     signed = machine.locals["el_plane_frame_make.area"].poly
@@ -83,14 +92,14 @@ FRAME = Subject(
     "el_plane_frame_make",
     frame_domain,
     frame_check,
-    ["el_abs_u64"],
+    ["el_abs_u64", "within_small"],
     {"el_divisor_make": make_divisor},
     {"el_plane_frame_make.area": area_lemma},
 )
 
 
 class Quotients:
-    """The contract of `divide`: value f / A, truncated, modulo 2^64; it remembers what was divided and the quotient."""
+    """The contract of `divide` and el_divide_i32_q32: value f / A, truncated, modulo 2^64; it remembers both."""
 
     def __init__(self, area: Poly) -> None:
         self.area = area
@@ -99,42 +108,107 @@ class Quotients:
     def divide(self, machine: Machine, arguments: list[Any]) -> Number:
         value = arguments[0].poly
         path = machine.path
-        path.prove(2**63 - 1 + value, "not INT64_MIN")
+        path.prove(2 ** (arguments[0].type.bits - 1) - 1 + value, "not the least of its type")
         quotient = path.atom("Q", -(2**95), 2**95)
         self.made.append((value, quotient))
         return machine.exactly("uint64_t", quotient - path.atom("k", -(2**31), 2**31) * RING)
 
 
-STATES: dict[int, tuple[list[Poly], list[Poly], list[Poly], Poly, Poly, Quotients]] = {}
+# What a plane is made from: corners, values, the first pixel, the left edge's whole step, the area, the quotients.
+State = tuple[list[Poly], list[Poly], list[Poly], Poly, Poly, Poly, Poly, Quotients]
+STATES: dict[int, State] = {}
+
+
+def anchored(machine: Machine, arguments: list[Any]) -> Any:
+    """anchor_of, executed; the way to its pixel's centre as two unknowns, half a pixel at most."""
+    others = machine.contracts
+    machine.contracts = {}
+    cell = machine.call("anchor_of", *arguments)
+    machine.contracts = others
+    half = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN // 2
+    ways = []
+    for name in ("to_centre_x", "to_centre_y"):
+        way = as_unknown(machine, cell.content[name].content, 1 - half, half)
+        machine.put(cell.content[name], way)
+        ways.append(way.poly)
+    CENTRES[id(machine.path)] = ways
+    return cell
+
+
+CENTRES: dict[int, list[Poly]] = {}
+
+
+def frame_of(machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool) -> tuple[Any, tuple[Poly, ...]]:
+    """A frame at any first pixel of the left edge's, with any of its steps."""
+    path, guard = machine.path, machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+    first = path.atom("first_x", -2041, 2041), path.atom("first_row", 0, SCREEN - 1)
+    step = path.atom("step", -2 * guard - 1, 2 * guard)
+    if area.constant is not None:
+        path.assume(area * area - 1)
+        frame = machine.struct("el_plane_frame")
+        machine.call("el_plane_frame_make", Pointer([frame]), machine.array("int32_t", x), machine.array("int32_t", y))
+        sign = 1 if area.known > 0 else -1
+    else:
+        sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
+        frame = machine.struct("el_plane_frame", x0=x[0], y0=y[0], sign=sign, small=int(small))
+        for i in (1, 2):
+            machine.put(frame.content[f"dx{i}"], x[i] - x[0])
+            machine.put(frame.content[f"dy{i}"], y[i] - y[0])
+    for name, value in zip(("x", "row", "step"), (*first, step), strict=True):
+        machine.put(frame.content[name], value)
+    return frame, (*first, step, area * sign)
+
+
+def prepared(machine: Machine, values: list[Poly], corner: Any, small: bool) -> Any:
+    """The frame; what was made from it is kept for the check."""
+    x, y, area = corner
+    frame, numbers = frame_of(machine, x, y, area, small)
+    quotients = Quotients(numbers[3])
+    exact = {
+        "anchor_of": anchored,
+        "divide": quotients.divide,
+        "el_divide_i32_q32": quotients.divide,
+        "el_plane_times": contracts.plane_times,
+    }
+    machine.contracts = {} if area.constant is not None else exact
+    first_x, first_row, step, magnitude = numbers
+    STATES[id(machine.path)] = (x, y, values, first_x, first_row, step, magnitude, quotients)
+    return frame
 
 
 def plane_domain(fraction: bool) -> Any:
     def domain(machine: Machine) -> list[Any]:
-        path = machine.path
-        x, y, area = corners(machine)
         bits = machine.constant(machine.unit.constants["EL_PLANE_FRACTION_BITS"]) if fraction else 0
         most = (1 << (31 + bits)) - 1
-        values = [path.atom(f"v{i}", -most, most) for i in range(3)]
-        row = path.atom("first_row", 0, SCREEN - 1)
-        sampled = area.constant is not None
-        if sampled:
-            path.assume(area * area - 1)
-            sign = 1 if area.known > 0 else -1
-            frame = machine.struct("el_plane_frame")
-            arrays = machine.array("int32_t", x), machine.array("int32_t", y)
-            machine.call("el_plane_frame_make", Pointer([frame]), *arrays, machine.exactly("int32_t", row))
-        else:
-            sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
-            frame = machine.struct("el_plane_frame", x0=x[0], y0=y[0], row=row, sign=sign)
-            for i in (1, 2):
-                machine.put(frame.content[f"dx{i}"], x[i] - x[0])
-                machine.put(frame.content[f"dy{i}"], y[i] - y[0])
-        quotients = Quotients(area * sign)
-        machine.contracts = {"divide": quotients.divide} if not sampled else {}
-        STATES[id(path)] = (x, y, values, row, area * sign, quotients)
+        values = [machine.path.atom(f"v{i}", -most, most) for i in range(3)]
+        frame = prepared(machine, values, corners(machine), small=False)
         plane = machine.struct("el_plane")
         array = machine.array("int64_t", values)
         return [Pointer([plane]), Pointer([frame]), array, machine.exactly("uint32_t", bits)]
+
+    return domain
+
+
+def small_corners(machine: Machine) -> Any:
+    """A small triangle: only differences count, and where the first corner is in its pixel."""
+    path = machine.path
+    x, y, area = corners(machine)
+    if area.constant is not None:
+        return x, y, area
+    most = machine.constant(machine.unit.constants["EL_SMALL_SUB"])
+    differences = [path.atom(name, -most, most) for name in ("dx1", "dx2", "dy1", "dy2")]
+    x = [x[0], x[0] + differences[0], x[0] + differences[1]]
+    y = [y[0], y[0] + differences[2], y[0] + differences[3]]
+    return x, y, (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+
+
+def short_domain(struct: str, most: int, small: bool) -> Any:
+    """Depth and colours, of small triangles and of others."""
+
+    def domain(machine: Machine) -> list[Any]:
+        values = [machine.path.atom(f"v{i}", 0, most) for i in range(3)]
+        frame = prepared(machine, values, small_corners(machine) if small else corners(machine), small)
+        return [Pointer([machine.struct(struct)]), Pointer([frame]), machine.array("uint16_t", values)]
 
     return domain
 
@@ -143,84 +217,126 @@ def gradient_lemma(machine: Machine, value: Number) -> Number:
     return as_unknown(machine, value)
 
 
-def to_centre_lemma(machine: Machine, value: Number) -> Number:
-    scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
-    return as_unknown(machine, value, -scale // 2 + 1, scale // 2)
+def check_quotients(machine: Machine, frame: Any, f: int) -> tuple[Poly, Poly]:
+    """What was divided is what the derivation says; columns and rows from the first corner's pixel to (i, j).
 
-
-def plane_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    Z A is the plane times A but for what the truncations cut off, in exact polynomials.
+    """
     path = machine.path
-    x, y, values, first_row, area, quotients = STATES.pop(id(path))
-    plane = arguments[0].cell.content
-    bits = arguments[3].poly.known
+    x, y, values, _, _, _, area, quotients = STATES[id(path)]
     scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
-    f = 1 << (32 - bits)
-    local = {name: machine.locals[f"el_plane_make.{name}"].poly for name in ("a", "b", "column", "row")}
     (for_x, qx), (for_y, qy), (for_offset, qo) = quotients.made
-    a, b = local["a"], local["b"]
-    to_x, to_y = (machine.locals[f"el_plane_make.to_centre_{axis}"].poly for axis in "xy")
-
-    # What was divided is what the derivation says.
-    path.prove(for_x - a * scale, "the dividend of dx", zero=True)
-    path.prove(for_y - b * scale, "the dividend of dy", zero=True)
-    path.prove(for_offset - a * to_x - b * to_y, "the offset's dividend", zero=True)
-    path.prove(to_x - (local["column"] * scale + scale // 2 - x[0]), "to_centre_x", zero=True)
-    path.prove(to_y - (local["row"] * scale + scale // 2 - y[0]), "to_centre_y", zero=True)
-
-    # What is at pixel (i, j) is Z modulo 2^64.
-    i, j = path.atom("i", 0, SCREEN - 1), path.atom("j", 0, SCREEN - 1)
-    at_pixel = sum(
-        (machine.poly(plane["dx"]) * i, machine.poly(plane["dy"]) * (j - first_row)), machine.poly(plane["row"])
+    column, row = path.floor(x[0], scale), path.floor(y[0], scale)
+    to_x, to_y = CENTRES.pop(id(path))
+    path.prove(to_x - (column * scale + scale // 2 - x[0]), "to_centre_x", zero=True)
+    path.prove(to_y - (row * scale + scale // 2 - y[0]), "to_centre_y", zero=True)
+    sign = machine.poly(frame, "sign").known
+    d = [value - values[0] for value in values]
+    a = (d[1] * (y[2] - y[0]) - d[2] * (y[1] - y[0])) * sign
+    b = (d[2] * (x[1] - x[0]) - d[1] * (x[2] - x[0])) * sign
+    a_unknown, b_unknown = (
+        next(number.poly for name, number in machine.locals.items() if name.endswith(f"_gradient.{axis}"))
+        for axis in "ab"
     )
-    columns, rows = i - local["column"], j - local["row"]
-    z = values[0] * f + qo + qx * columns + qy * rows
-    require(all(factor % RING == 0 for factor in (at_pixel - z).terms.values()), "the value is Z modulo 2^64")
+    path.prove(a_unknown - a, "a", zero=True)
+    path.prove(b_unknown - b, "b", zero=True)
+    path.prove(for_x - a_unknown * scale, "the dividend of dx", zero=True)
+    path.prove(for_y - b_unknown * scale, "the dividend of dy", zero=True)
+    require((for_offset - a_unknown * to_x - b_unknown * to_y).constant == 0, "the offset's dividend")
 
-    # Z A is the plane times A but for what the truncations cut off, in exact polynomials.
+    columns, rows = path.atom("i", 0, SCREEN - 1) - column, path.atom("j", 0, SCREEN - 1) - row
+    z = values[0] * f + qo + qx * columns + qy * rows
     exact_x, exact_y = columns * scale + to_x, rows * scale + to_y
-    plane_at = (values[0] * area + a * exact_x + b * exact_y) * f
+    plane_at = (values[0] * area + a_unknown * exact_x + b_unknown * exact_y) * f
     cut_off = [quotient * area - dividend * f for dividend, quotient in ((for_offset, qo), (for_x, qx), (for_y, qy))]
     error = cut_off[0] + cut_off[1] * columns + cut_off[2] * rows
     require((z * area - plane_at - error).constant == 0, "Z A is the plane and what was cut off")
     # Each is below A: the error is below 1 + |columns| + |rows|, and the header says 2^-19.
     furthest = 1 + sum(max(-path.bounds(part)[0], path.bounds(part)[1]) for part in (columns, rows))
-    require(furthest <= 1 + 2 * (2 * SCREEN) < 2 ** (32 - 19), "the error is below 2^-19")
+    require(furthest <= MOST_PIXELS < 2 ** (32 - 19), "the error is below 2^-19")
 
     # The plane goes through the corners, and is their mean with the edge functions as weights.
-    sign = machine.poly(arguments[1].cell, "sign").known
-    d = [value - values[0] for value in values]
-    a_exact = (d[1] * (y[2] - y[0]) - d[2] * (y[1] - y[0])) * sign
-    b_exact = (d[2] * (x[1] - x[0]) - d[1] * (x[2] - x[0])) * sign
-    path.prove(a - a_exact, "a", zero=True)
-    path.prove(b - b_exact, "b", zero=True)
     px, py = path.atom("px", -(2**20), 2**20), path.atom("py", -(2**20), 2**20)
     weights = [((x[k] - px) * (y[m] - py) - (x[m] - px) * (y[k] - py)) * sign for k, m in ((1, 2), (2, 0), (0, 1))]
     mean = sum((weight * value for weight, value in zip(weights, values, strict=True)), Poly.of(0))
-    value = values[0] * area + a_exact * (px - x[0]) + b_exact * (py - y[0])
+    value = values[0] * area + a * (px - x[0]) + b * (py - y[0])
     require((value - mean).constant == 0, "the plane is the mean of the corners")
     require((sum(weights, Poly.of(0)) - area).constant == 0, "its weights add up to 1")
+    return columns, rows
+
+
+# 1 + columns + rows from the first corner's pixel to any of the screen.
+MOST_PIXELS = 1 + 2 * (2 * SCREEN - 1)
+
+
+def plane_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    plane, frame = arguments[0].cell.content, arguments[1].cell
+    f = 1 << (32 - (arguments[3].poly.known if len(arguments) > 3 else 0))
+    columns, rows = check_quotients(machine, frame, f)
+    x, y, values, first_x, first_row, step, _, quotients = STATES.pop(id(machine.path))
+    (_, qx), (_, qy), (_, qo) = quotients.made
+    scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
+    column, row = machine.path.floor(x[0], scale), machine.path.floor(y[0], scale)
+
+    # What is at pixel (i, j) is Z modulo 2^64.
+    dx, down = machine.poly(plane["dx"]), machine.poly(plane["down"])
+    dy = down - dx * step
+    at_pixel = machine.poly(plane["value"]) + dx * (columns + column - first_x) + dy * (rows + row - first_row)
+    congruent(at_pixel, values[0] * f + qo + qx * columns + qy * rows, RING, "the value is Z modulo 2^64")
+
+
+def channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """The three numbers are Z's, each rounded to 2^-24, and the value has its half."""
+    path = machine.path
+    channel, frame = arguments[0].cell.content, arguments[1].cell
+    columns, rows = check_quotients(machine, frame, WORD)
+    x, y, values, first_x, first_row, step, _, quotients = STATES.pop(id(path))
+    scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
+    column, row = path.floor(x[0], scale), path.floor(y[0], scale)
+    rounded = [path.floor(quotient + 2**15, 2**16) for _, quotient in quotients.made]
+    for (_, quotient), whole in zip(quotients.made, rounded, strict=True):
+        path.prove(whole * 2**16 - quotient + 2**15, "rounded down by 1/2 at most")
+        path.prove(quotient + 2**15 - whole * 2**16, "rounded up by 1/2 at most")
+    rx, ry, ro = rounded
+    dx, down = machine.poly(channel["dx"]), machine.poly(channel["down"])
+    dy = down - dx * step
+    at_pixel = machine.poly(channel["value"]) + dx * (columns + column - first_x) + dy * (rows + row - first_row)
+    z = values[0] * 2**16 + HALF_Q24 + ro + rx * columns + ry * rows
+    congruent(at_pixel, z, WORD, "the value is Z, rounded, modulo 2^32")
+    # In units of 2^-24: 1/2 and what truncation cuts off, 2^-16, for each column and row and the offset.
+    require(MOST_PIXELS * (2**15 + 1) < CHANNEL_ERROR * 2**16, "the error is below 2^-25 * 8160")
+
+
+WORD = 1 << 32
+HALF_Q24 = 1 << 23  # EL_CHANNEL_HALF
+CHANNEL_ERROR = 4080
 
 
 # Their own proofs are elsewhere; samples execute them.
 DIVISION = [
-    "divide", "el_divide_q32", "el_divide_wide_q32", "magnitude_of", "el_abs_u64", "el_divide_words", "reciprocal_word"
+    "divide", "el_divide_q32", "el_divide_wide_q32", "el_divide_i32_q32", "magnitude_of", "el_abs_u64",
+    "el_divide_words", "reciprocal_word", "within_small", "el_plane_times", "el_multiply_u64",
 ]  # fmt: skip
+
+
+LEMMAS = {f"{kind}_gradient.{name}": gradient_lemma for kind in ("wide", "small") for name in "ab"}
 
 
 def plane(fraction: bool) -> Subject:
     return Subject(
-        FILE,
-        "el_plane_make",
-        plane_domain(fraction),
-        plane_check,
-        ["el_plane_make", *DIVISION],
-        lemmas={
-            "el_plane_make.a": gradient_lemma,
-            "el_plane_make.b": gradient_lemma,
-            "el_plane_make.to_centre_x": to_centre_lemma,
-            "el_plane_make.to_centre_y": to_centre_lemma,
-        },
+        FILE, "el_plane_make", plane_domain(fraction), plane_check, ["start_plane", *DIVISION], lemmas=LEMMAS
     )
+
+
+def depth(small: bool) -> Subject:
+    domain = short_domain("el_plane", 65535, small)
+    return Subject(FILE, "el_plane_make_u16", domain, plane_check, ["start_plane", *DIVISION], lemmas=LEMMAS)
+
+
+def colour(small: bool) -> Subject:
+    domain = short_domain("el_channel", 255 * 256, small)
+    modular = ["el_channel_make", "to_q24", *DIVISION]
+    return Subject(FILE, "el_channel_make", domain, channel_check, modular, lemmas=LEMMAS)
 
 
 FRACTION = pytest.mark.parametrize("fraction", [False, True])
@@ -270,18 +386,44 @@ def test_what_is_divided(bits: int) -> None:
 
 
 @EVERY_PRECISION
+@pytest.mark.parametrize("make", [depth, colour])
+def test_every_depth_and_colour(bits: int, make: Any) -> None:
+    make(small=False).prove(bits)
+
+
+@pytest.mark.parametrize("make", [depth, colour])
+def test_every_depth_and_colour_in_32_bits(make: Any) -> None:
+    make(small=True).prove()
+
+
+@EVERY_PRECISION
 @FRACTION
 def test_the_compiler_agrees(bits: int, fraction: bool) -> None:
     plane(fraction).agree(bits, count=100)
 
 
 @EVERY_PRECISION
+@pytest.mark.parametrize("make", [depth, colour])
+def test_the_compiler_agrees_on_depth_and_colour(bits: int, make: Any) -> None:
+    make(small=False).agree(bits, count=100)
+
+
+@EVERY_PRECISION
 def test_the_proof_can_fail(bits: int) -> None:
-    # A term too few, a wrong row, and a width too small.
-    plane(False).fails_with(Fault(FILE, "a * to_centre_x + b * to_centre_y", "a * to_centre_x + b * to_centre_x"), bits)
-    plane(False).fails_with(Fault(FILE, "(frame->row - row)", "(frame->row - row - 1)"), bits)
-    plane(True).fails_with(Fault(FILE, "a * EL_SUBPIXELS", "a * 8 * EL_SUBPIXELS"), bits)
+    # A wrong row, a width too small, and a step too many.
+    plane(False).fails_with(Fault(FILE, ".rows = frame->row - row,", ".rows = frame->row - row - 1,"), bits)
+    plane(True).fails_with(Fault(FILE, "int64_t a = (d1 * frame->dy2", "int64_t a = 8 * (d1 * frame->dy2"), bits)
+    plane(False).fails_with(Fault(FILE, "(g->dx, frame->step);", "(g->dx, frame->step + 1);"), bits)
+    colour(False).fails_with(Fault(FILE, "(value + 0x8000U) >> 16", "(value + 0x7FFFU) >> 16"), bits)
     DIVIDE.fails_with(Fault(FILE, "value >> fraction_bits", "value / (1 << fraction_bits) + 1"), bits)
+
+
+def test_the_proof_of_small_triangles_can_fail() -> None:
+    """Twice the size would overflow; a term too few is found as in the wide way."""
+    depth(True).fails_with(Fault("raster/plane.h", "4 ? 1023 : -1", "4 ? 1025 : -1"))
+    FRAME.fails_with(Fault(FILE, "<= 2U * EL_SMALL_SUB", "<= 2U * EL_SMALL_SUB + 1U"))
+    text = "g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y"
+    depth(True).fails_with(Fault(FILE, text, text.replace("b * at->to_centre_y", "b * at->to_centre_x")))
 
 
 def test_the_proof_finds_an_area_beyond_32_bits() -> None:

@@ -182,7 +182,7 @@ def curvature_domain(machine: Machine) -> list[Any]:
     path = machine.path
     dx = path.atom("dx", -STEEP + 1, STEEP - 1)
     as_unsigned = dx if path.decide(dx, -dx - 1) else dx + 2**64
-    plane = machine.struct("el_plane", row=0, dx=as_unsigned, dy=0)
+    plane = machine.struct("el_plane", dx=as_unsigned)
     dw = path.atom("w_step_q4", -(2**31) + 1, 2**31 - 1)
     numbers = (
         machine.number("int32_t", "w", 1),
@@ -278,8 +278,8 @@ def piece_domain(machine: Machine) -> list[Any]:
     for name in ("u_q16", "v_q16"):
         machine.put(walk.content[name], path.atom(name, -KNOT, KNOT))
     triangle = machine.struct("el_triangle")
-    planes = triangle.content["planes"].content
-    machine.put(planes[1].content["dx"], path.atom("dw", falls * 2**63, 2**63 - 1 + falls * 2**63))
+    perspective = triangle.content["perspective"].content
+    machine.put(perspective["w"].content["dx"], path.atom("dw", falls * 2**63, 2**63 - 1 + falls * 2**63))
     # What is left of the span, by how it compares with the lengths.
     ends = [1, 2, *(length + 2 for length in table("lengths")), 2041]
     part = path.choose(path.atom("part", 0, len(ends) - 2))
@@ -330,14 +330,17 @@ PIECE = Subject(
 
 def begin_domain(machine: Machine) -> list[Any]:
     path = machine.path
-    triangle = machine.struct("el_triangle", u_shift=path.atom("u_shift", 0, 27), v_shift=path.atom("v_shift", 0, 27))
-    for plane in triangle.content["planes"].content[1:4]:
-        machine.put(plane.content["row"], path.atom("row", 0, 2**64 - 1))
-        machine.put(plane.content["dx"], path.atom("dx", 0, 2**64 - 1))
+    triangle = machine.struct("el_triangle")
+    perspective = triangle.content["perspective"].content
+    for name in "uv":
+        machine.put(perspective[f"{name}_shift"], path.atom(f"{name}_shift", 0, 27))
+    for name in "wuv":
+        machine.put(perspective[name].content["value"], path.atom("value", 0, 2**64 - 1))
+        machine.put(perspective[name].content["dx"], path.atom("dx", 0, 2**64 - 1))
     surface = triangle.content["surface"].content
     machine.put(surface["uv_error_log2"], path.choose(path.atom("uv_error_log2", 1, 5)))
     walk = machine.struct("el_texture_walk")
-    return [Pointer([walk]), Pointer([triangle]), machine.number("int32_t", "x", 0, 2039)]
+    return [Pointer([walk]), Pointer([triangle]), machine.number("int32_t", "skipped", 0, 4080)]
 
 
 def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
@@ -370,7 +373,7 @@ def steep_contract(machine: Machine, arguments: list[Any]) -> Number:
 
 
 def steep_domain(machine: Machine) -> list[Any]:
-    return [Pointer([machine.struct("el_plane", row=0, dx=machine.path.atom("dx", 0, 2**64 - 1), dy=0)])]
+    return [Pointer([machine.struct("el_plane", dx=machine.path.atom("dx", 0, 2**64 - 1))])]
 
 
 def steep_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -386,7 +389,7 @@ BEGIN = Subject(
     "el_texture_walk_begin",
     begin_domain,
     begin_check,
-    modular=["el_texture_walk_begin", "el_abs_u64"],
+    modular=["el_texture_walk_begin", "el_abs_u64", "el_plane_times", "el_multiply_u64"],
     contracts={
         "exact": lambda machine, arguments: exact_knots(machine, [None, *arguments[1:]]),
         "curvature_q8": curvature_contract,

@@ -1,6 +1,8 @@
 /* Division by a reciprocal is exact: against `/` and 128-bit arithmetic, for divisors of every size. */
 #include "base/divide.h"
 
+#include <stdbool.h>
+
 #include "seeded.h"
 #include "wide.h"
 
@@ -66,6 +68,62 @@ static void expect_quotients(const seeded *s, uint32_t d, uint64_t n)
         expect_q32(s, signed_n, 1, d);
         expect_q32(s, signed_n, 0x80000000, d);
         expect_q32(s, signed_n, UINT32_MAX, d);
+    }
+}
+
+/* n / d in Q32 for n of 32 bits, truncated; floor(2^32 n / d) by both ratios where the whole part fits. */
+static void expect_ratios(const seeded *s, int32_t n, uint32_t d)
+{
+    const el_divisor divisor = el_divisor_make(d);
+    const int64_t shifted = n * (1LL << 32);
+    const int64_t floor = shifted / d - (shifted % d < 0);
+    if (el_divide_i32_q32(n, &divisor) != (uint64_t)(shifted / d)) {
+        fail_at(s, "%ld / %lu in Q32", (long)n, (unsigned long)d);
+    }
+    const bool fits = floor >> 32 > -(1LL << 31) && floor >> 32 < 1LL << 31;
+    if (fits && d < 1U << 16 && el_ratio_q32(n, d) != floor) {
+        fail_at(s, "the ratio %ld / %lu", (long)n, (unsigned long)d);
+    }
+    if (fits && d < 1U << 31 && el_wide_ratio_q32(n, d) != floor) {
+        fail_at(s, "the wide ratio %ld / %lu", (long)n, (unsigned long)d);
+    }
+}
+
+static void test_ratios(void)
+{
+    static const int32_t numbers[] = {0, 1, 2, 3, 0x7FFF, 0x8000, 0x10000, 0x7FFFFFFE, 0x7FFFFFFF};
+    seeded s = seeded_from(8);
+    for (; s.round < ROUNDS; s.round++) {
+        const uint32_t d = 1U + (uint32_t)any_of_bits(&s, 32) % UINT32_MAX;
+        const int32_t n = numbers[s.round % 9];
+        expect_ratios(&s, n, d);
+        expect_ratios(&s, -n, d);
+        expect_ratios(&s, (int32_t)any_signed_of_bits(&s, 31), d);
+        expect_ratios(&s, (int32_t)any_signed_of_bits(&s, 31), d % 65535 + 1);
+    }
+}
+
+/* The ratios of coordinates and their products, which take more than 32 bits with more sub-pixels. */
+static void test_wide_ratios(void)
+{
+    for (seeded s = seeded_from(9); s.round < ROUNDS; s.round++) {
+        const uint32_t d = 1U + (uint32_t)any_of_bits(&s, 31) % (uint32_t)INT32_MAX;
+        const int64_t n = any_between(&s, -(int64_t)d * INT32_MAX, (int64_t)d * INT32_MAX);
+        const wide shifted = wide_left(wide_of(n), 32);
+        /* Rounded down: for a negative number its opposite rounded up. */
+        const wide floor =
+            n >= 0 ? wide_quotient(shifted, d)
+                   : wide_negated(wide_quotient(wide_sum(wide_negated(shifted), wide_of((int64_t)d - 1)), d));
+        if ((uint64_t)el_wide_ratio_q32(n, d) != floor.low) {
+            fail_at(&s, "the wide ratio %lld / %lu", (long long)n, (unsigned long)d);
+        }
+    }
+}
+
+static void test_reciprocals_of_short_divisors(void)
+{
+    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
+        TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFFU / d, el_reciprocal_of_short(d));
     }
 }
 
@@ -167,5 +225,8 @@ int main(void)
     RUN_TEST(test_quotients_seeded);
     RUN_TEST(test_wide_divisors_seeded);
     RUN_TEST(test_two_words_by_one);
+    RUN_TEST(test_ratios);
+    RUN_TEST(test_wide_ratios);
+    RUN_TEST(test_reciprocals_of_short_divisors);
     return UNITY_END();
 }

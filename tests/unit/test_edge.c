@@ -35,15 +35,14 @@ static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int
     const int32_t stride = (end - first) / 40 + 1; /* long edges are started anew on some of their rows */
     for (int32_t row = first; row < end; row++) {
         const int32_t expected = reference_x(x0, y0, x1, y1, row);
-        if (walked.x != expected || walked.rest >= walked.height) {
+        if (el_edge_x(&walked) != expected) {
             fail_at(s, "(%d, %d) to (%d, %d): row %d begins at %d, not %d", (int)x0, (int)y0, (int)x1, (int)y1,
-                    (int)row, (int)expected, (int)walked.x);
+                    (int)row, (int)expected, (int)el_edge_x(&walked));
         }
         if (row % stride == 0) {
             el_edge direct;
             el_edge_make(&direct, x0, y0, x1, y1, row);
-            if (direct.x != walked.x || direct.rest != walked.rest || direct.step != walked.step ||
-                direct.rest_step != walked.rest_step) {
+            if (el_edge_x(&direct) != el_edge_x(&walked)) {
                 fail_at(s, "(%d, %d) to (%d, %d): row %d differs from the walk", (int)x0, (int)y0, (int)x1, (int)y1,
                         (int)row);
             }
@@ -70,7 +69,7 @@ static void test_a_diagonal(void)
     el_edge edge;
     el_edge_make(&edge, HALF, HALF, HALF + 5 * EL_SUBPIXELS, HALF + 5 * EL_SUBPIXELS, 0);
     for (int32_t row = 0; row < 5; row++) {
-        TEST_ASSERT_EQUAL_INT32(row, edge.x);
+        TEST_ASSERT_EQUAL_INT32(row, el_edge_x(&edge));
         el_edge_next_row(&edge);
     }
 }
@@ -85,6 +84,22 @@ static void test_edges_in_the_guard_band_seeded(void)
             c[i] = (int32_t)(any > EL_GUARD_SUB ? EL_GUARD_SUB : (any < -EL_GUARD_SUB ? -EL_GUARD_SUB : any));
         }
         expect_edge(&s, c[0], c[1] < c[3] ? c[1] : c[3], c[2], c[1] < c[3] ? c[3] : c[1]);
+    }
+}
+
+/* Up to where edges are short (with 4 bits), and a little beyond. */
+static void test_short_edges(void)
+{
+    enum { SHORT = 32 * EL_SUBPIXELS, NARROW = 64 * EL_SUBPIXELS };
+    for (seeded s = seeded_from(41); s.round < 20000; s.round++) {
+        const int32_t x = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
+        const int32_t y = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
+        const int32_t beside = (int32_t)any_between(&s, -2, 2);
+        const int32_t dx =
+            any_below(&s, 2) == 0 ? NARROW - beside : (int32_t)any_signed_of_bits(&s, 6 + EL_SUBPIXEL_BITS);
+        const int32_t dy = any_below(&s, 2) == 0 ? SHORT - beside : (int32_t)any_of_bits(&s, 5 + EL_SUBPIXEL_BITS) + 1;
+        expect_edge(&s, x, y, x + dx, y + dy);
+        expect_edge(&s, x, y, x - dx, y + dy);
     }
 }
 
@@ -107,6 +122,7 @@ int main(void)
     RUN_TEST(test_first_centres);
     RUN_TEST(test_a_diagonal);
     RUN_TEST(test_edges_in_the_guard_band_seeded);
+    RUN_TEST(test_short_edges);
     RUN_TEST(test_longest_edges);
     return UNITY_END();
 }

@@ -73,6 +73,41 @@ static void test_magnitudes_and_the_smaller_and_larger(void)
     TEST_ASSERT_EQUAL_INT32(INT32_MAX, el_max_i32(INT32_MAX, INT32_MIN));
 }
 
+/* Half words at their ends and in between: where a product in parts carries. */
+static void expect_products(const seeded *s, uint64_t a, int32_t b)
+{
+    const uint32_t low = (uint32_t)a;
+    const uint32_t other = (uint32_t)(a >> 32);
+    const int32_t factor = b % 65536;
+    const int16_t half = (int16_t)(b % 32769 == 32768 ? -32768 : b % 32769);
+    if (el_multiply_u64(a, factor) != a * (uint64_t)(int64_t)factor) {
+        fail_at(s, "%llu * %ld", (unsigned long long)a, (long)factor);
+    }
+    if (el_product_u64(low, other) != (uint64_t)low * other) {
+        fail_at(s, "%lu * %lu", (unsigned long)low, (unsigned long)other);
+    }
+    if (el_product_i32_i16((int32_t)low, half) != (int64_t)(int32_t)low * half) {
+        fail_at(s, "%ld * %d", (long)(int32_t)low, half);
+    }
+}
+
+static void test_products(void)
+{
+    static const uint16_t halves[] = {0, 1, 0x7FFF, 0x8000, 0xFFFF};
+    seeded s = seeded_from(10);
+    for (unsigned i = 0; i < 625; i++) {
+        const uint64_t a = (uint64_t)halves[i % 5] << 48 | (uint64_t)halves[i / 5 % 5] << 32 |
+                           (uint64_t)halves[i / 25 % 5] << 16 | halves[i / 125];
+        for (unsigned k = 0; k < 5; k++) {
+            expect_products(&s, a, halves[k]);
+            expect_products(&s, a, -halves[k]);
+        }
+    }
+    for (; s.round < 200000; s.round++) {
+        expect_products(&s, any_of_bits(&s, 64), (int32_t)any_signed_of_bits(&s, 31));
+    }
+}
+
 /* By its definition: root^2 <= x < (root + 1)^2. */
 static void expect_root(const seeded *s, uint64_t x)
 {
@@ -204,6 +239,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_bit_lengths);
     RUN_TEST(test_magnitudes_and_the_smaller_and_larger);
+    RUN_TEST(test_products);
     RUN_TEST(test_square_roots);
     RUN_TEST(test_scale_at_the_edges);
     RUN_TEST(test_scale_ties_go_up);

@@ -25,18 +25,28 @@ static wide exact_times_area(const el_corner corners[3], const int64_t values[3]
     return sum;
 }
 
-/* Within 2^-19 of the exact value, in Q32. */
+/* Within 2^-19 of the exact value, in Q32; the plane's value is that of column `at`. */
 static void expect_value(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
-                         const el_plane *plane, int32_t column, int32_t row)
+                         const el_plane *plane, int32_t at, int32_t column, int32_t row)
 {
     const int64_t area = reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y);
     const wide exact = exact_times_area(corners, values, column, row);
     const wide exact_q32 = wide_quotient(wide_left(exact, 32 - fraction_bits), area);
-    const int64_t got_q32 = (int64_t)(plane->row + plane->dx * (uint64_t)(int64_t)column);
+    const int64_t got_q32 = (int64_t)(plane->value + el_plane_times(plane->dx, column - at));
     const int64_t error_q32 = (int64_t)((uint64_t)got_q32 - exact_q32.low);
     if (error_q32 > 1 << 13 || error_q32 < -(1 << 13)) {
         fail_at(s, "pixel (%d, %d) is off by %lld * 2^-32", (int)column, (int)row, (long long)error_q32);
     }
+}
+
+static el_plane_frame frame_at(const int32_t x[3], const int32_t y[3], int32_t column, int32_t row, int32_t step)
+{
+    el_plane_frame frame;
+    el_plane_frame_make(&frame, x, y);
+    frame.x = column;
+    frame.row = row;
+    frame.step = step;
+    return frame;
 }
 
 static void expect_plane(const seeded *s, const el_corner corners[3], const int64_t values[3], unsigned fraction_bits,
@@ -44,23 +54,26 @@ static void expect_plane(const seeded *s, const el_corner corners[3], const int6
 {
     const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
     const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
-    el_plane_frame frame;
+    /* The left edge's whole step: of any size while the column stays on the screen's side of 2^31. */
+    const int32_t step = (int32_t)(s->round % 7) * 40000 - 120000;
+    int32_t at = first_column;
+    el_plane_frame frame = frame_at(x, y, at, first_row, step);
     el_plane walked;
-    el_plane_frame_make(&frame, x, y, first_row);
     el_plane_make(&walked, &frame, values, fraction_bits);
     for (int32_t row = first_row; row <= last_row; row++) {
         el_plane direct;
-        el_plane_frame_make(&frame, x, y, row);
+        frame = frame_at(x, y, at, row, step);
         el_plane_make(&direct, &frame, values, fraction_bits);
-        if (direct.row != walked.row || direct.dx != walked.dx || direct.dy != walked.dy) {
+        if (direct.value != walked.value || direct.dx != walked.dx || direct.down != walked.down) {
             fail_at(s, "row %d differs from the walk", (int)row);
         }
         for (int32_t column = first_column; column <= last_column; column++) {
             if (reference_covers(corners, column, row)) {
-                expect_value(s, corners, values, fraction_bits, &walked, column, row);
+                expect_value(s, corners, values, fraction_bits, &walked, at, column, row);
             }
         }
-        walked.row += walked.dy;
+        walked.value += walked.down;
+        at += step;
     }
 }
 
@@ -81,13 +94,12 @@ static void test_a_ramp(void)
     static const int32_t x[3] = {0, 16 * EL_SUBPIXELS, 0};
     static const int32_t y[3] = {0, 0, 16 * EL_SUBPIXELS};
     static const int64_t values[3] = {0, 16, 0};
-    el_plane_frame frame;
+    const el_plane_frame frame = frame_at(x, y, 0, 3, 2);
     el_plane plane;
-    el_plane_frame_make(&frame, x, y, 3);
     el_plane_make(&plane, &frame, values, 0);
     TEST_ASSERT_EQUAL_HEX64(1ULL << 32, plane.dx);
-    TEST_ASSERT_EQUAL_HEX64(0, plane.dy);
-    TEST_ASSERT_EQUAL_HEX64(1ULL << 31, plane.row);
+    TEST_ASSERT_EQUAL_HEX64(2ULL << 32, plane.down);
+    TEST_ASSERT_EQUAL_HEX64(1ULL << 31, plane.value);
 }
 
 static void test_planes_seeded(void)
@@ -103,6 +115,70 @@ static void test_planes_seeded(void)
         }
         if (reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y) != 0) {
             expect_plane(&s, corners, values, fraction_bits, 0, 15, 0, 15);
+        }
+    }
+}
+
+static int64_t magnitude_of(int64_t value)
+{
+    return value < 0 ? -value : value;
+}
+
+/* Depth and colours take a short way for small triangles: depth is the plane that the long way makes, to the last bit; a
+ * channel is within 2^-12, and has its half. */
+static void expect_short_ways(const seeded *s, const el_corner corners[3], const uint16_t depths[3],
+                              const uint16_t colours[3])
+{
+    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
+    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
+    const el_plane_frame frame = frame_at(x, y, 3, 5, (int32_t)(s->round % 9) - 4);
+    const int64_t wide_depths[3] = {depths[0], depths[1], depths[2]};
+    const int64_t wide_colours[3] = {colours[0], colours[1], colours[2]};
+    el_plane expected;
+    el_plane got;
+    el_plane_make(&expected, &frame, wide_depths, 0);
+    el_plane_make_u16(&got, &frame, depths);
+    if (got.value != expected.value || got.dx != expected.dx || got.down != expected.down) {
+        fail_at(s, "the plane of 16 bits differs");
+    }
+    el_plane plane;
+    el_channel channel;
+    el_plane_make(&plane, &frame, wide_colours, 0);
+    el_channel_make(&channel, &frame, colours);
+    for (int32_t row = 5; row < 13; row++) {
+        for (int32_t column = 0; column < 8; column++) {
+            const int32_t aside = column - 3 - (row - 5) * frame.step;
+            const uint64_t exact = plane.value + plane.down * (uint64_t)(row - 5) + plane.dx * (uint64_t)(int64_t)aside;
+            const uint32_t value =
+                channel.value + channel.down * (uint32_t)(row - 5) + channel.dx * (uint32_t)aside - EL_CHANNEL_HALF;
+            const int32_t error = (int32_t)(value - (uint32_t)(exact >> 16));
+            if (magnitude_of(error) > 4080) {
+                fail_at(s, "pixel (%d, %d) is off by %d * 2^-24", (int)column, (int)row, (int)error);
+            }
+        }
+    }
+}
+
+static void test_depth_and_colours_of_small_triangles(void)
+{
+    static const uint16_t ends[] = {0, 255 * 256, 65535};
+    for (seeded s = seeded_from(51); s.round < 50000; s.round++) {
+        el_corner corners[3];
+        uint16_t depths[3];
+        uint16_t colours[3];
+        const bool extreme = any_below(&s, 2) == 0;
+        for (unsigned i = 0; i < 3; i++) {
+            const int32_t reach = 64 * EL_SUBPIXELS - 2 + (int32_t)any_below(&s, 4);
+            corners[i] = any_corner(&s, 8 * EL_SUBPIXELS, 32 * EL_SUBPIXELS);
+            if (extreme && i > 0) {
+                corners[i].x = corners[0].x + (any_below(&s, 2) == 0 ? reach : -reach);
+                corners[i].y = corners[0].y + (any_below(&s, 2) == 0 ? reach : -reach);
+            }
+            depths[i] = any_below(&s, 2) == 0 ? ends[2 * any_below(&s, 2)] : (uint16_t)any_u64(&s);
+            colours[i] = any_below(&s, 2) == 0 ? ends[any_below(&s, 2)] : (uint16_t)any_between(&s, 0, 255 * 256);
+        }
+        if (reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y) != 0) {
+            expect_short_ways(&s, corners, depths, colours);
         }
     }
 }
@@ -138,6 +214,7 @@ int main(void)
     RUN_TEST(test_areas_and_their_sign);
     RUN_TEST(test_a_ramp);
     RUN_TEST(test_planes_seeded);
+    RUN_TEST(test_depth_and_colours_of_small_triangles);
     RUN_TEST(test_largest_planes);
     return UNITY_END();
 }

@@ -178,6 +178,7 @@ static void test_flat_prefers_the_triangle_then_the_vertex_then_the_material(voi
 static void test_a_back_is_lit_by_the_turned_normal(void)
 {
     material.light = &light;
+    material.flags = EL_MATERIAL_TWO_SIDED;
     gather(EL_RECORD_PLAIN, false);
     TEST_ASSERT_EQUAL_HEX16(0, surface.colour);
     gather(EL_RECORD_PLAIN, true);

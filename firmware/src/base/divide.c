@@ -11,12 +11,12 @@ static uint32_t reciprocal_word(uint32_t d)
     const uint32_t d10 = d >> 22;        /* 512..1023 */
     const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
     const uint32_t d31 = (d >> 1) + (d & 1U);
-    const uint32_t v0 = ((1U << 24) - (1U << 14) + (1U << 9)) / d10;                    /* below 2^15 */
-    const uint32_t v1 = (v0 << 4) - (uint32_t)(((uint64_t)(v0 * v0) * d21) >> 32) - 1U; /* v0^2 < 2^30 */
+    const uint32_t v0 = ((1U << 24) - (1U << 14) + (1U << 9)) / d10;                     /* below 2^15 */
+    const uint32_t v1 = (v0 << 4) - (uint32_t)(el_product_u64(v0 * v0, d21) >> 32) - 1U; /* v0^2 < 2^30 */
     const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
-    const uint32_t v2 = (v1 << 15) + (uint32_t)(((uint64_t)v1 * e) >> 33);
+    const uint32_t v2 = (v1 << 15) + (uint32_t)(el_product_u64(v1, e) >> 33);
     /* (v2 + 2^32 + 1) * d / 2^32, modulo 2^32 */
-    const uint32_t high = (uint32_t)(((uint64_t)v2 * d + d) >> 32);
+    const uint32_t high = (uint32_t)((el_product_u64(v2, d) + d) >> 32);
     return v2 - (high + d);
 }
 

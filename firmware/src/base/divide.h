@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "base/fixed.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -25,7 +27,7 @@ el_divisor el_divisor_make(uint32_t d);
 static inline uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder)
 {
     const uint32_t d = divisor->normalised;
-    const uint64_t product = (uint64_t)divisor->reciprocal * high + (((uint64_t)high << 32) | low);
+    const uint64_t product = el_product_u64(divisor->reciprocal, high) + (((uint64_t)high << 32) | low);
     uint32_t quotient = (uint32_t)(product >> 32) + 1U;
     uint32_t rest = low - quotient * d;
     if (rest > (uint32_t)product) {
@@ -57,12 +59,65 @@ static inline int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
     return (int32_t)(el_divide_u64(magnitude, divisor) ^ sign);
 }
 
+/* n / d as Q32, truncated towards zero, in 64 bits. |n| < 2^31. */
+static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
+{
+    const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
+    const unsigned shift = divisor->shift;
+    uint32_t rest;
+    const uint32_t whole =
+        el_divide_words(shift == 0 ? 0U : magnitude >> (32U - shift), magnitude << shift, divisor, &rest);
+    const uint32_t fraction = el_divide_words(rest, 0, divisor, &rest);
+    const uint64_t quotient = (uint64_t)whole << 32 | fraction;
+    return n < 0 ? 0 - quotient : quotient;
+}
+
+/* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
+enum { EL_SHORT_DIVISOR = 511 };
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+extern const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
+static inline uint32_t el_reciprocal_of_short(uint32_t d)
+{
+    return el_reciprocals[d];
+}
+#else
+static inline uint32_t el_reciprocal_of_short(uint32_t d)
+{
+    /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): d >= 1, since an edge with a row of its own has a height. */
+    return 0xFFFFFFFFU / d;
+}
+#endif
+
+/* floor(2^32 n / d) for 1 <= d < 2^16, |n| < 2^31, |n / d| < 2^31: the whole part, then twice 16 bits of the fraction. */
+static inline int64_t el_ratio_q32(int32_t n, uint32_t d)
+{
+    const uint32_t magnitude = n < 0 ? ~(uint32_t)n : (uint32_t)n; /* floor(n / d) = ~floor(~n / d) for n < 0 */
+    /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): the same. */
+    const uint32_t quotient = magnitude / d;
+    uint32_t rest = magnitude - quotient * d;
+    const int32_t whole = (int32_t)(n < 0 ? ~quotient : quotient);
+    rest = n < 0 ? d - 1U - rest : rest;
+    const uint32_t high = (rest << 16) / d;
+    rest = (rest << 16) - high * d;
+    return (int64_t)(((uint64_t)(uint32_t)whole << 32) | (high << 16) | (rest << 16) / d);
+}
+
 /* (n + fraction * 2^-32) / d as Q32, truncated towards zero, modulo 2^64: the 32 low bits of the whole part and 32 bits of
  * fraction. Any n but INT64_MIN. */
 int64_t el_divide_q32(int64_t n, uint32_t fraction, const el_divisor *divisor);
 
 /* The same for a divisor of more than 32 bits, by the processor's or the compiler's own division. 1 <= d < 2^47. */
 int64_t el_divide_wide_q32(int64_t n, uint32_t fraction, uint64_t d);
+
+/* floor(2^32 n / d), |n / d| < 2^31, 1 <= d < 2^31. */
+static inline int64_t el_wide_ratio_q32(int64_t n, uint32_t d)
+{
+    const int64_t quotient = n / (int64_t)d;
+    const int64_t rest = n - quotient * (int64_t)d;
+    const int64_t whole = rest < 0 ? quotient - 1 : quotient;
+    const uint64_t positive = (uint64_t)(rest < 0 ? rest + (int64_t)d : rest);
+    return (int64_t)(((uint64_t)whole << 32) | (positive << 32) / d);
+}
 
 #ifdef __cplusplus
 }

@@ -37,6 +37,51 @@ static inline int32_t el_max_i32(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+/* a * b modulo 2^64, |b| < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead. */
+static inline uint64_t el_multiply_u64(uint64_t a, int32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    const uint32_t factor = (uint32_t)(b < 0 ? -b : b);
+    const uint32_t low = (uint32_t)a;
+    const uint32_t middle = (low >> 16) * factor;
+    const uint32_t high = (uint32_t)(a >> 32) * factor + (middle >> 16);
+    const uint64_t product = ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * factor;
+    return b < 0 ? 0 - product : product;
+#else
+    return a * (uint64_t)(int64_t)b;
+#endif
+}
+
+/* a * b. */
+static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    const uint32_t a_high = a >> 16;
+    const uint32_t a_low = a & 0xFFFFU;
+    const uint32_t b_high = b >> 16;
+    const uint32_t b_low = b & 0xFFFFU;
+    const uint32_t low = a_low * b_low;
+    const uint32_t first = a_high * b_low + (low >> 16);
+    const uint32_t second = a_low * b_high + (first & 0xFFFFU);
+    const uint32_t high = a_high * b_high + (first >> 16) + (second >> 16);
+    return (uint64_t)high << 32 | second << 16 | (low & 0xFFFFU);
+#else
+    return (uint64_t)a * b;
+#endif
+}
+
+/* a * b. */
+static inline int64_t el_product_i32_i16(int32_t a, int16_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    const int32_t high = (a >> 16) * b;
+    const int32_t low = (a & 0xFFFF) * b; /* below 2^16 * 2^15 */
+    return (int64_t)high * 65536 + low;
+#else
+    return (int64_t)a * b;
+#endif
+}
+
 /* floor(sqrt(x)), by binary digits (Woo's abacus method): no division, 32 steps at most. */
 uint32_t el_sqrt_u64(uint64_t x);
 

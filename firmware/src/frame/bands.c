@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/fill.h"
 #include "base/fixed.h"
 
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
@@ -58,10 +59,8 @@ static el_target open_band(el_renderer *renderer, uint16_t band)
         buffer->y = (uint16_t)y;
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
-        for (uint32_t i = 0; i < pixels; i++) {
-            buffer->pixels[i] = config->background;
-        }
-        memset(renderer->depth, 0xFF, pixels * sizeof renderer->depth[0]);
+        el_fill_u16(buffer->pixels, config->background, pixels);
+        el_fill_u16(renderer->depth, 0xFFFF, pixels);
         renderer->band_is_open = 1;
     }
     return (el_target){
@@ -85,7 +84,8 @@ static void hand_over(el_renderer *renderer)
     renderer->band_is_open = 0;
 }
 
-/* Draws one record's triangle into the target. Returns whether it reaches beyond. */
+/* Draws one record's triangle into the target. Returns whether it reaches beyond. A triangle that does is set up where its
+ * state will stay. */
 static bool draw_record(el_renderer *renderer, el_record *record, const el_target *target, states *pool)
 {
     el_list *const list = &renderer->list;
@@ -101,17 +101,20 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
         el_list_gather(list, record, corners, &surface);
         surface.uv_error_log2 = renderer->config.uv_error_log2;
         renderer->stats.setups++;
-        if (!el_triangle_setup(&local, corners, &surface, target->y)) {
+        const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+        if (el_first_centre(y_last) > target->y_end) {
+            state = take_state(pool, list, surface.shading);
+            triangle = state != 0 ? el_list_at(list, state) : &local;
+        }
+        if (!el_triangle_setup(triangle, corners, &surface, target->y)) {
+            if (state != 0) {
+                give_state(pool, list, surface.shading, state);
+            }
             return false;
         }
-        if (local.y_end > target->y_end) {
-            state = take_state(pool, list, surface.shading);
-            if (state != 0) {
-                triangle = el_list_at(list, state);
-                memcpy(triangle, &local, el_triangle_bytes(surface.shading));
-                record->index = EL_INDEX_ACTIVE;
-                record->at.state = state;
-            }
+        if (state != 0) {
+            record->index = EL_INDEX_ACTIVE;
+            record->at.state = state;
         }
     }
     el_triangle_draw(triangle, target, &renderer->stats);

@@ -26,12 +26,7 @@ typedef struct drawing {
 
 static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
 {
-    const el_clip_vertex clip = el_transform_position(&d->transform, d->mesh->positions[index]);
-    const uint8_t code = el_outcode(&d->transform, &clip);
-    if ((code & EL_CODE_CLIP) == 0) {
-        el_project(&d->transform, &clip, screen);
-    }
-    screen->code = code;
+    el_transform_vertex(&d->transform, d->mesh->positions[index], screen);
     d->renderer->stats.vertices++;
 }
 

@@ -1,5 +1,7 @@
 #include "geometry/transform.h"
 
+#include <stdbool.h>
+
 #include "base/fixed.h"
 
 _Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
@@ -338,6 +340,9 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
     const int64_t far_q32 = el_shift_i64(view->far_q16, 16 - unit_log2 - 32);
     transform->near_q32 = (uint64_t)near_q32;
+    transform->near_shift = (int8_t)(el_bit_length_u64((uint64_t)near_q32) - 32);
+    transform->near_bits = (uint32_t)(transform->near_shift >= 0 ? (uint64_t)near_q32 >> transform->near_shift
+                                                                 : (uint64_t)near_q32 << -transform->near_shift);
     transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
     transform->far = far_q32 >= (int64_t)INT32_MAX << 32 ? INT32_MAX : (int32_t)((far_q32 + 0xFFFFFFFFLL) >> 32);
     transform->constant_w = 0;
@@ -365,8 +370,8 @@ static int32_t form_value(const el_transform *transform, unsigned i, const int16
 {
     /* Three products below 2^46 and an offset below 2^62. */
     const int32_t *row = transform->rows[i];
-    const int64_t sum =
-        transform->offsets[i] + (int64_t)row[0] * p[0] + (int64_t)row[1] * p[1] + (int64_t)row[2] * p[2];
+    const int64_t sum = transform->offsets[i] + el_product_i32_i16(row[0], p[0]) + el_product_i32_i16(row[1], p[1]) +
+                        el_product_i32_i16(row[2], p[2]);
     return (int32_t)(sum >> transform->shift);
 }
 
@@ -409,13 +414,9 @@ static el_coordinate snap(int64_t c, uint16_t size, uint32_t w, const el_divisor
     return (el_coordinate)(half + offset);
 }
 
-void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+static uint16_t depth_of(const el_transform *transform, const el_clip_vertex *vertex, uint32_t w,
+                         const el_divisor *divisor)
 {
-    const uint32_t w = (uint32_t)vertex->w;
-    const el_divisor divisor = el_divisor_make(w);
-    screen->x = snap(vertex->x, transform->size[0], w, &divisor);
-    screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
-
     uint32_t z;
     if (transform->orthographic) {
         const uint64_t distance = (uint64_t)(vertex->d - transform->near);
@@ -424,14 +425,113 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
     } else {
         /* depth = scale * (1 - near / w) */
         const uint32_t ratio_q32 =
-            transform->near_q32 < (uint64_t)w << 32 ? el_divide_u64(transform->near_q32, &divisor) : 0xFFFFFFFFU;
+            transform->near_q32 < (uint64_t)w << 32 ? el_divide_u64(transform->near_q32, divisor) : 0xFFFFFFFFU;
         const uint64_t product = (uint64_t)transform->depth_scale * ~ratio_q32;
         z = (uint32_t)((product + (1ULL << 43)) >> 44);
     }
-    screen->z = (uint16_t)(z > EL_DEPTH_MAX ? EL_DEPTH_MAX : z);
+    return (uint16_t)(z > EL_DEPTH_MAX ? EL_DEPTH_MAX : z);
+}
 
-    /* 1/w = (2^32 + reciprocal) * 2^(shift - 64): the upper 16 bits of the sum, rounded, its first bit included. */
-    const uint32_t rest = ((divisor.reciprocal >> 16) + 1U) >> 1;
+/* 1/w = (2^32 + reciprocal) * 2^(shift - 64): the upper 16 bits of the sum, rounded, its first bit included. */
+static void keep_reciprocal(el_screen_vertex *screen, const el_divisor *divisor)
+{
+    const uint32_t rest = ((divisor->reciprocal >> 16) + 1U) >> 1;
     screen->w = (uint16_t)(0x8000U + (rest > 0x7FFFU ? 0x7FFFU : rest));
-    screen->w_shift = (uint8_t)(31 - divisor.shift);
+    screen->w_shift = (uint8_t)(31 - divisor->shift);
+}
+
+void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+{
+    const uint32_t w = (uint32_t)vertex->w;
+    const el_divisor divisor = el_divisor_make(w);
+    screen->x = snap(vertex->x, transform->size[0], w, &divisor);
+    screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
+    screen->z = depth_of(transform, vertex, w, &divisor);
+    keep_reciprocal(screen, &divisor);
+}
+
+#if !defined(__OPTIMIZE_SIZE__)
+/* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.5 units of 2^(s - 31), s being
+ * the divisor's shift. Times `half` that is the result's magnitude with 31 - s bits of fraction, too low by less than
+ * 2 half units. False where that might matter: near a tie, and for a w of few bits. */
+static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
+                             el_coordinate *result)
+{
+    const uint32_t half = size * (uint32_t)(EL_SUBPIXELS / 2);
+    const unsigned s = divisor->shift;
+    const uint32_t magnitude = c < 0 ? 0U - (uint32_t)c : (uint32_t)c;
+    const uint32_t ratio = (uint32_t)(el_product_u64(magnitude, reciprocal) >> 32);
+    const uint64_t scaled = el_product_u64(ratio, half) + (1ULL << (30U - s));
+    const uint32_t fraction = (uint32_t)scaled << (s + 1U);
+    if (fraction == 0 || fraction >= 0U - (half << (s + 2U))) {
+        return false;
+    }
+    const int32_t offset = (int32_t)((uint32_t)(scaled >> 32) << (s + 1U) | (uint32_t)scaled >> (31U - s));
+    *result = (el_coordinate)((int32_t)half + (c < 0 ? -offset : offset));
+    return true;
+}
+
+/* The largest shift with which 2 half units are a fraction: half < 2^14 * EL_SUBPIXELS / 16. */
+enum { FAST_SHIFT = 30 - 14 - (EL_SUBPIXEL_BITS - 4) };
+
+/* depth_of without the last bits: near / w from 31 bits of the reciprocal and all of near's, with at least 31 bits
+ * of fraction, too low by less than 2 units; so scale * near / w, Q12 + 31, by less than 2 * 2^32, 2 of the 2^11 units that
+ * are kept, and 1 more that is cut off; and depth_of's own rounding of the ratio is less than one of them. */
+static inline bool depth_fast(const el_transform *transform, const el_divisor *divisor, uint32_t reciprocal,
+                              uint16_t *result)
+{
+    const uint32_t ratio = (uint32_t)(el_product_u64(transform->near_bits, reciprocal) >> 32);
+    const int excess = 32 - divisor->shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
+    if (excess < 0 || excess > 31) {
+        return false;
+    }
+    const uint64_t product = el_product_u64(transform->depth_scale, ratio);
+    const uint32_t high = (uint32_t)(product >> 32) >> excess;
+    const uint32_t z = (transform->depth_scale >> 1) - high + (1U << 10);
+    const uint32_t fraction = z & 2047U;
+    if (fraction < 5U || fraction > 2042U || z >> 11 > EL_DEPTH_MAX) {
+        return false;
+    }
+    *result = (uint16_t)(z >> 11);
+    return true;
+}
+#endif
+
+static void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+{
+#if defined(__OPTIMIZE_SIZE__)
+    el_project(transform, vertex, screen);
+#else
+    const uint32_t w = (uint32_t)vertex->w;
+    const el_divisor divisor = el_divisor_make(w);
+    const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
+    const bool fast = divisor.shift <= FAST_SHIFT;
+    if (!fast || !snap_fast(vertex->x, transform->size[0], &divisor, reciprocal, &screen->x)) {
+        screen->x = snap(vertex->x, transform->size[0], w, &divisor);
+    }
+    if (!fast || !snap_fast(-vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
+        screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
+    }
+    if (transform->orthographic || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
+        screen->z = depth_of(transform, vertex, w, &divisor);
+    }
+    keep_reciprocal(screen, &divisor);
+#endif
+}
+
+void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    const el_clip_vertex vertex = el_transform_position(transform, position);
+    const uint32_t w = (uint32_t)vertex.w;
+    /* Most vertices are in the view, between near and far: three comparisons then. */
+    if ((uint32_t)vertex.d - (uint32_t)transform->near <= (uint32_t)transform->far - (uint32_t)transform->near &&
+        (uint32_t)vertex.x + w <= 2U * w && (uint32_t)vertex.y + w <= 2U * w) {
+        screen->code = 0;
+        project_inside(transform, &vertex, screen);
+        return;
+    }
+    screen->code = el_outcode(transform, &vertex);
+    if ((screen->code & EL_CODE_CLIP) == 0) {
+        el_project(transform, &vertex, screen);
+    }
 }

@@ -63,10 +63,12 @@ typedef struct el_transform {
     uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
     uint8_t guard_shift[2];
     uint16_t size[2];
-    int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
-    int32_t far;          /* likewise, or INT32_MAX */
-    int32_t constant_w;   /* orthographic: w of every vertex */
-    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    int32_t near;       /* in the draw's unit: 1 <= near < 2^30 */
+    int32_t far;        /* likewise, or INT32_MAX */
+    int32_t constant_w; /* orthographic: w of every vertex */
+    uint64_t near_q32;  /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    uint32_t near_bits; /* near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras give near 31 bits */
+    int8_t near_shift;
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
     uint8_t depth_shift;
 } el_transform;
@@ -93,6 +95,9 @@ typedef struct el_screen_vertex {
 
 /* The clip coordinates of a mesh position. */
 el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3]);
+
+/* All of what follows for one mesh position. */
+void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
 /* Where a clip vertex lies. */
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);

@@ -1,10 +1,14 @@
-/* A triangle's edge, stepped row by row in exact integers.
+/* A triangle's edge, stepped row by row with one addition, and exact on every row.
  *
- * The edge function E(i, j) of an edge with direction (dx, dy), dy > 0, at the centre of pixel (i, j), is negative on
- * one side and moves by a fixed amount per pixel and per row. Its zero on row j lies at a rational column with the
- * denominator dy; `x` is the first pixel whose centre is not left of that zero, and `rest`, 0 <= rest < dy, is what
- * remains of the edge function there. A step adds the exact quotient and remainder of dx / dy, so x never drifts: on
- * any row it is what a direct evaluation gives.
+ * The edge function E(i, j) of an edge with direction (dx, dy), dy > 0, at the centre of pixel (i, j), is negative on one
+ * side and moves by a fixed amount per pixel and per row. Its zero on row j lies on a grid: with S = EL_SUBPIXELS it is a
+ * multiple of 1 / (S dy), or, rounded up to what the next row keeps, m / dy with an integer m. The first pixel that is not
+ * left of it is the zero rounded up. So a number in Q32 that is below the true one by less than a step of the grid still
+ * has the right whole part, when a step less one unit is added first:
+ *
+ *     the sum of all that is cut off, 1 unit of 2^-32 per row and 2 at the start, is below 4083 units;
+ *     a step of the grid is at least 2^32 / (16 * 2 EL_GUARD_SUB) = 4112 units with 4 bits, for m / dy with 6 and 8 bits
+ *     2^32 / (2 EL_GUARD_SUB) = 16448 and 4112.
  *
  * A left edge's pixel x is inside (E = 0 counts), a right edge's is not: with rows from the first centre not above the
  * top to the last centre above the bottom, that is the top-left rule, without a case for it. */
@@ -13,6 +17,7 @@
 
 #include <stdint.h>
 
+#include "base/divide.h"
 #include "geometry/limits.h"
 
 #ifdef __cplusplus
@@ -20,19 +25,11 @@ extern "C" {
 #endif
 
 typedef struct el_edge {
-    int32_t x;          /* first pixel not left of the edge on this row; within +-2041 on the edge's own rows */
-    int32_t step;       /* floor(dx / dy) */
-    uint32_t rest;      /* 0 <= rest < height */
-    uint32_t rest_step; /* 0 <= rest_step < height */
-    uint32_t height;    /* dy, at most 2 * EL_GUARD_SUB */
+    int64_t x_q32;    /* its whole part is the first pixel not left of the edge; within +-2041 on the edge's own rows */
+    int64_t step_q32; /* floor(2^32 dx / dy), per row */
 } el_edge;
 
-/* What m below fits: |m| < 2^(20 + EL_SUBPIXEL_BITS) * 2^5 = 2^29 with 4 bits, 2^31.2 with 6, 2^33.2 with 8. */
-#if EL_SUBPIXEL_BITS == 4
-typedef int32_t el_edge_number;
-#else
-typedef int64_t el_edge_number;
-#endif
+enum { EL_EDGE_MAX_ROWS = 2 * EL_GUARD_PX };
 
 /* The first row (or column) whose centre is not before `a`, in 1/EL_SUBPIXELS px. */
 static inline int32_t el_first_centre(int32_t a)
@@ -40,46 +37,55 @@ static inline int32_t el_first_centre(int32_t a)
     return (a + (EL_SUBPIXELS / 2 - 1)) >> EL_SUBPIXEL_BITS;
 }
 
+static inline int32_t el_edge_x(const el_edge *edge)
+{
+    return (int32_t)(edge->x_q32 >> 32);
+}
+
+#if EL_SUBPIXEL_BITS == 4
+/* Edges up to 511 units high and 1023 wide: a product with a reciprocal instead of three divisions. The step is too low by
+ * |dx| units at most, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
+ * 525,314 units. */
+enum { EL_EDGE_SHORT = 511, EL_EDGE_NARROW = 1023 };
+
+static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
+{
+    if (dy > EL_EDGE_SHORT || (uint32_t)(dx + EL_EDGE_NARROW) > 2U * EL_EDGE_NARROW) {
+        return el_ratio_q32(dx, dy);
+    }
+    const uint32_t reciprocal = el_reciprocal_of_short(dy);
+    return dx >= 0 ? (int64_t)el_multiply_u64(reciprocal, dx)
+                   : -(int64_t)el_multiply_u64((uint64_t)reciprocal + 1U, -dx);
+}
+#endif
+
 /* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within
  * +-EL_GUARD_SUB, y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
 static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
-    const int32_t dx = x1 - x0; /* |dx| <= 2 * EL_GUARD_SUB */
-    const int32_t dy = y1 - y0; /* 1 to 2 * EL_GUARD_SUB */
+    const int32_t dx = x1 - x0;              /* |dx| <= 2 * EL_GUARD_SUB */
+    const uint32_t dy = (uint32_t)(y1 - y0); /* 1 to 2 * EL_GUARD_SUB */
     const int32_t half = EL_SUBPIXELS / 2;
-    /* With S = EL_SUBPIXELS and G = EL_GUARD_SUB: x = ceil(n / (S dy)), n = (x0 - half) dy + (centre - y0) dx.
-     * |n| <= (G + half) 2G + (2G)^2 < 6.01 G^2: 2^32.6 for S = 16, 2^40.6 for S = 256. n moves by S dx per row, so
-     * m = floor((n + S dy - 1) / S) moves by dx, and x = floor(m / dy). */
-    const int64_t n = (int64_t)(x0 - half) * dy + (int64_t)(row * EL_SUBPIXELS + half - y0) * dx;
-    const el_edge_number m = (el_edge_number)((n + (int64_t)EL_SUBPIXELS * dy - 1) >> EL_SUBPIXEL_BITS);
-    /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): y0 < y1. */
-    int32_t quotient = (int32_t)(m / dy);
-    int32_t rest = (int32_t)(m - (el_edge_number)quotient * dy);
-    if (rest < 0) {
-        quotient--;
-        rest += dy;
-    }
-    int32_t step = dx / dy;
-    int32_t rest_step = dx - step * dy;
-    if (rest_step < 0) {
-        step--;
-        rest_step += dy;
-    }
-    edge->x = quotient;
-    edge->rest = (uint32_t)rest;
-    edge->step = step;
-    edge->rest_step = (uint32_t)rest_step;
-    edge->height = (uint32_t)dy;
+    const int32_t down =
+        row * EL_SUBPIXELS + half - y0; /* 0 to 2 * EL_GUARD_SUB, from the corner to the row's centre */
+#if EL_SUBPIXEL_BITS == 4
+    edge->step_q32 = el_edge_step_q32(dx, dy);
+    /* (x0 - half + down dx / dy) / 16, rounded up; down < dy, so `down` steps are below 2^32 |dx| + 2^17 < 2^49. */
+    const int64_t aside = (int64_t)el_multiply_u64((uint64_t)edge->step_q32, down) >> EL_SUBPIXEL_BITS;
+    edge->x_q32 = (int64_t)((x0 - half) * (int64_t)(1 << (32 - EL_SUBPIXEL_BITS))) + aside + 0xFFFFFFFFLL;
+#else
+    edge->step_q32 = el_wide_ratio_q32(dx, dy);
+    /* x = ceil(n / (S dy)) with n = (x0 - half) dy + down dx, |n| < 6.01 G^2 for G = EL_GUARD_SUB: 2^40.6 for S = 256.
+     * n moves by S dx per row, so m = ceil(n / S) moves by dx, and x = ceil(m / dy); |m| < 2^33. */
+    const int64_t n = (int64_t)(x0 - half) * dy + (int64_t)down * dx;
+    const int64_t m = (n + EL_SUBPIXELS - 1) >> EL_SUBPIXEL_BITS;
+    edge->x_q32 = el_wide_ratio_q32(m, dy) + 0xFFFFFFFFLL;
+#endif
 }
 
 static inline void el_edge_next_row(el_edge *edge)
 {
-    edge->x += edge->step;
-    edge->rest += edge->rest_step; /* below 4 * EL_GUARD_SUB */
-    if (edge->rest >= edge->height) {
-        edge->rest -= edge->height;
-        edge->x++;
-    }
+    edge->x_q32 += edge->step_q32;
 }
 
 #ifdef __cplusplus

@@ -89,12 +89,10 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
     const el_run *const run = el_list_at(list, record->run);
     const el_draw_state *const draw = &run->draw;
     const el_shading shading = (el_shading)draw->material->shading;
-    *surface = (el_surface){
-        .shading = shading,
-        .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW,
-        .dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0,
-        .texture = draw->material->texture,
-    };
+    surface->shading = shading;
+    surface->depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
+    surface->dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0;
+    surface->texture = draw->material->texture;
 
     int32_t x[3];
     int32_t y[3];
@@ -102,9 +100,12 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
         const el_point *const point = &record->at.points[i];
         x[i] = point->x;
         y[i] = point->y;
-        corners[i] = (el_corner){.x = point->x, .y = point->y, .z = point->z};
+        corners[i].x = point->x;
+        corners[i].y = point->y;
+        corners[i].z = point->z;
     }
-    const bool turned = el_shows_back(draw, el_doubled_area(x, y));
+    const bool turned =
+        (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 && el_shows_back(draw, el_doubled_area(x, y));
 
     if (run->kind != EL_RECORD_PLAIN) {
         gather_w((const el_record_perspective *)(const void *)record, corners);

@@ -2,7 +2,14 @@
 
 #include "base/fixed.h"
 
-void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3], int32_t row)
+#if EL_SUBPIXEL_BITS == 4
+static inline bool within_small(int32_t difference)
+{
+    return (uint32_t)(difference + EL_SMALL_SUB) <= 2U * EL_SMALL_SUB;
+}
+#endif
+
+void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3])
 {
     frame->x0 = x[0];
     frame->y0 = y[0];
@@ -10,12 +17,14 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
     frame->dy1 = y[1] - y[0];
     frame->dx2 = x[2] - x[0];
     frame->dy2 = y[2] - y[0];
-    frame->row = row;
     const int64_t area = el_doubled_area(x, y);
     frame->sign = area < 0 ? -1 : 1;
 #if EL_SUBPIXEL_BITS == 4
+    frame->small =
+        within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) && within_small(frame->dy2);
     frame->area = el_divisor_make((uint32_t)el_abs_u64(area));
 #else
+    frame->small = false;
     frame->area = el_abs_u64(area);
 #endif
 }
@@ -32,26 +41,99 @@ static uint64_t divide(int64_t value, unsigned fraction_bits, const el_area *are
 #endif
 }
 
-void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t values[3], unsigned fraction_bits)
+/* The pixel that the first corner lies in: from there, whole pixels. Its centre is at most half a pixel away on each
+ * axis, so the sum of the products has the bound of one gradient. */
+typedef struct anchor {
+    int32_t to_centre_x, to_centre_y; /* 1/EL_SUBPIXELS px */
+    int32_t columns, rows;            /* from there to the planes' first pixel */
+} anchor;
+
+static anchor anchor_of(const el_plane_frame *frame)
+{
+    const int32_t column = frame->x0 >> EL_SUBPIXEL_BITS;
+    const int32_t row = frame->y0 >> EL_SUBPIXEL_BITS;
+    return (anchor){
+        .to_centre_x = column * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0,
+        .to_centre_y = row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0,
+        .columns = frame->x - column,
+        .rows = frame->row - row,
+    };
+}
+
+/* A value's change in Q32: per pixel, per row, and from the first corner to its pixel's centre. */
+typedef struct gradient {
+    uint64_t dx, dy, offset;
+} gradient;
+
+static void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int64_t d1, int64_t d2,
+                          unsigned fraction_bits)
 {
     /* With S sub-pixels and F extra bits of fraction, differences are below 2^(32 + F) and heights and widths below
      * 2^12 S: |a|, |b| < 2^(45 + F) S, and per pixel, times S, below 2^(45 + F) S^2: 2^61 for S = 16 and F = 8 as for
      * S = 256 and F = 0. */
-    const int64_t d1 = values[1] - values[0];
-    const int64_t d2 = values[2] - values[0];
     const int64_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
     const int64_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
-    plane->dx = divide(a * EL_SUBPIXELS, fraction_bits, &frame->area);
-    plane->dy = divide(b * EL_SUBPIXELS, fraction_bits, &frame->area);
+    g->dx = divide(a * EL_SUBPIXELS, fraction_bits, &frame->area);
+    g->dy = divide(b * EL_SUBPIXELS, fraction_bits, &frame->area);
+    g->offset = divide(a * at->to_centre_x + b * at->to_centre_y, fraction_bits, &frame->area);
+}
 
-    /* The centre of the pixel that the first corner lies in is at most half a pixel away on each axis: the sum of the
-     * products has the bound of one gradient. From there, whole pixels. */
-    const int32_t column = frame->x0 >> EL_SUBPIXEL_BITS;
-    const int32_t row = frame->y0 >> EL_SUBPIXEL_BITS;
-    const int32_t to_centre_x = column * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0;
-    const int32_t to_centre_y = row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0;
-    const uint64_t offset = divide(a * to_centre_x + b * to_centre_y, fraction_bits, &frame->area);
-    const uint64_t first = (uint64_t)values[0] << (32U - fraction_bits);
-    plane->row =
-        first + offset - plane->dx * (uint64_t)(int64_t)column + plane->dy * (uint64_t)(int64_t)(frame->row - row);
+/* The same quotients, in 32 bits. */
+static void small_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int32_t d1, int32_t d2)
+{
+#if EL_SUBPIXEL_BITS == 4
+    if (frame->small) {
+        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27, and 16 times that below 2^31. */
+        const int32_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
+        const int32_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
+        g->dx = el_divide_i32_q32(a * EL_SUBPIXELS, &frame->area);
+        g->dy = el_divide_i32_q32(b * EL_SUBPIXELS, &frame->area);
+        g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y, &frame->area);
+        return;
+    }
+#endif
+    wide_gradient(g, frame, at, d1, d2, 0);
+}
+
+static void start_plane(el_plane *plane, const el_plane_frame *frame, const anchor *at, const gradient *g,
+                        uint64_t first_q32)
+{
+    plane->dx = g->dx;
+    plane->down = g->dy + el_plane_times(g->dx, frame->step);
+    plane->value = first_q32 + g->offset + el_plane_times(g->dx, at->columns) + el_plane_times(g->dy, at->rows);
+}
+
+void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t values[3], unsigned fraction_bits)
+{
+    const anchor at = anchor_of(frame);
+    gradient g;
+    wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], fraction_bits);
+    start_plane(plane, frame, &at, &g, (uint64_t)values[0] << (32U - fraction_bits));
+}
+
+void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint16_t values[3])
+{
+    const anchor at = anchor_of(frame);
+    gradient g;
+    small_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0]);
+    start_plane(plane, frame, &at, &g, (uint64_t)values[0] << 32);
+}
+
+/* From 8.8 in Q32 to 8.24, rounded; negative numbers modulo 2^32. */
+static uint32_t to_q24(uint64_t value)
+{
+    return (uint32_t)((value + 0x8000U) >> 16);
+}
+
+void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3])
+{
+    const anchor at = anchor_of(frame);
+    gradient g;
+    small_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0]);
+    const uint32_t dx = to_q24(g.dx);
+    const uint32_t dy = to_q24(g.dy);
+    channel->dx = dx;
+    channel->down = dy + dx * (uint32_t)frame->step;
+    channel->value = ((uint32_t)values[0] << 16) + EL_CHANNEL_HALF + to_q24(g.offset) + dx * (uint32_t)at.columns +
+                     dy * (uint32_t)at.rows;
 }

@@ -7,6 +7,7 @@
 #ifndef EL_RASTER_PLANE_H
 #define EL_RASTER_PLANE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/divide.h"
@@ -16,11 +17,20 @@
 extern "C" {
 #endif
 
+/* It is followed along the triangle's left edge, which moves by its whole step per row, or by a pixel more. */
 typedef struct el_plane {
-    uint64_t row; /* value at the centre of pixel 0 of the current row */
-    uint64_t dx;  /* per pixel to the right */
-    uint64_t dy;  /* per row down */
+    uint64_t value; /* at the centre of the row's first pixel */
+    uint64_t dx;    /* per pixel to the right */
+    uint64_t down;  /* per row down and the left edge's whole step to the side */
 } el_plane;
+
+/* A colour channel in the same way: 0..255 in 8.24, modulo 2^32, with 1/2 added. Gradients are rounded to 2^-24, so the
+ * error at any pixel is below 2^-25 * 8160 < 2^-12. */
+typedef struct el_channel {
+    uint32_t value, dx, down;
+} el_channel;
+
+#define EL_CHANNEL_HALF (1U << 23)
 
 /* |doubled area| of a triangle: at most its bounding box, (2 * EL_GUARD_SUB)^2, 2^31.99 with 4 sub-pixel bits, 2^39.99
  * with 8. */
@@ -38,22 +48,52 @@ typedef struct el_plane_frame {
     int32_t x0, y0;   /* the first corner, 1/EL_SUBPIXELS px */
     int32_t dx1, dy1; /* from the first to the second corner */
     int32_t dx2, dy2; /* from the first to the third */
-    int32_t row;      /* the row that the planes start at */
+    int32_t x, row;   /* the pixel that the planes start at */
+    int32_t step;     /* whole pixels per row, of the left edge */
     int32_t sign;     /* of the doubled area */
+    bool small;       /* all differences within +-EL_SMALL_SUB: 32 bits are enough for values of 16 */
     el_area area;
 } el_plane_frame;
 
-/* Corners in 1/EL_SUBPIXELS px, not in a line. */
-void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3], int32_t row);
+/* With values below 2^16, 16 * (2^16 - 1) * 2 * 1023 < 2^31. */
+enum { EL_SMALL_SUB = EL_SUBPIXEL_BITS == 4 ? 1023 : -1 };
+
+/* Corners in 1/EL_SUBPIXELS px, not in a line. x, row and step are the caller's to set. */
+void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3]);
 
 /* The plane through values[i] * 2^-fraction_bits, |values[i]| < 2^(31 + fraction_bits); fraction_bits is 0 or
  * EL_PLANE_FRACTION_BITS. */
 void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t values[3], unsigned fraction_bits);
 
+/* The same for depth: 0 <= values[i] < 2^16. */
+void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint16_t values[3]);
+
+/* The channel through values[i], 0 to 255 in 8.8. */
+void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3]);
+
+/* A plane's gradient times a number of pixels or rows, modulo 2^64; |count| < 2^22. */
+static inline uint64_t el_plane_times(uint64_t gradient, int32_t count)
+{
+    return (uint32_t)(count + 0xFFFF) <= 2U * 0xFFFFU ? el_multiply_u64(gradient, count)
+                                                      : gradient * (uint64_t)(int64_t)count;
+}
+
 /* Doubled area; positive when the corners run clockwise as seen on the screen (y down). Exact. */
 static inline int64_t el_doubled_area(const int32_t x[3], const int32_t y[3])
 {
-    return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+    const int32_t dx1 = x[1] - x[0];
+    const int32_t dy1 = y[1] - y[0];
+    const int32_t dx2 = x[2] - x[0];
+    const int32_t dy2 = y[2] - y[0];
+#if defined(__ARM_ARCH_6M__)
+    /* Most differences are within +-2^14, and both products below 2^29 then. */
+    const uint32_t bias = 1U << 14;
+    if ((((uint32_t)dx1 + bias) | ((uint32_t)dy1 + bias) | ((uint32_t)dx2 + bias) | ((uint32_t)dy2 + bias)) >> 15 ==
+        0) {
+        return dx1 * dy2 - dx2 * dy1;
+    }
+#endif
+    return (int64_t)dx1 * dy2 - (int64_t)dx2 * dy1;
 }
 
 #ifdef __cplusplus

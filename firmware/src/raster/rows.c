@@ -4,75 +4,64 @@
 #include "raster/texture_walk.h"
 #include "raster/triangle.h"
 
+/* Each loop is compiled anew with its choices known, where speed counts; one loop that asks takes half the memory. */
+#if defined(__OPTIMIZE_SIZE__)
+#define SPECIALISED inline
+#else
+#define SPECIALISED inline __attribute__((always_inline))
+#endif
+
 /* Rounding to nearest at the end is made once, at the start of a span. Depth gets the bound of its plane's error more than
  * its half (plane.h): values exactly between two units, which truncated gradients leave a little too low, are rounded up like
  * all others. */
 #define HALF_Q32 ((1ULL << 31) + (1U << 13)) /* of depth, Q32 */
-#define HALF_Q24 (0x80U << 16)               /* of colour, 8.24 */
 
-/* Depth is stepped with all 32 bits of fraction: on a 32-bit core that costs one addition more than 16.16 and saves the
- * shift, and it makes the plane exact at every pixel of the widest screen. */
-typedef struct stepped_depth {
-    uint64_t value; /* Q32, its half added */
-    uint64_t step;
-} stepped_depth;
-
-/* A colour, 8.24 modulo 2^32: its plane holds 8.8 with 32 bits of fraction, so the 32 bits are taken out of the middle. The
- * step is rounded: after n pixels the colour is off by n * 2^-25. */
-typedef struct stepped {
-    uint32_t value; /* its half added */
-    uint32_t step;
-} stepped;
-
-static inline uint64_t value_at(const el_plane *plane, int32_t x)
-{
-    return plane->row + plane->dx * (uint64_t)(int64_t)x;
-}
-
-static inline stepped colour_at(const el_plane *plane, int32_t x)
-{
-    return (stepped){.value = (uint32_t)(value_at(plane, x) >> 16) + HALF_Q24,
-                     .step = (uint32_t)((plane->dx + 0x8000U) >> 16)};
-}
-
-/* What a span carries from pixel to pixel, texture coordinates apart. */
+/* What a span carries from pixel to pixel, texture coordinates apart. Depth is stepped with all 32 bits of fraction: on a
+ * 32-bit core that costs one addition more than 16.16 and saves the shift, and it makes the plane exact at every pixel of
+ * the widest screen. */
 typedef struct span {
-    stepped_depth z;
-    stepped rgb[3];
+    uint64_t z, z_step;        /* Q32, its half added */
+    uint32_t red, green, blue; /* 8.24 modulo 2^32, their half added */
+    uint32_t red_step, green_step, blue_step;
 } span;
 
 /* What a loop does: bits of a number that the compiler knows, so that each loop holds only what it needs. */
 enum { DEPTH = 1, COLOURS = 2, TEXTURE = 4, DITHER = 8, COUNT = 16 };
 
-static inline span span_begin(const el_triangle *triangle, int32_t x, unsigned kind)
+static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
 {
-    span s = {0};
+    span s;
     if ((kind & DEPTH) != 0) {
-        const el_plane *const plane = &triangle->planes[EL_PLANE_Z];
-        s.z = (stepped_depth){.value = value_at(plane, x) + HALF_Q32, .step = plane->dx};
+        s.z = triangle->z.value + HALF_Q32;
+        s.z_step = triangle->z.dx;
+        if (skipped != 0) {
+            s.z += el_plane_times(s.z_step, skipped);
+        }
     }
     if ((kind & COLOURS) != 0) {
-        const el_plane *planes = &triangle->planes[(kind & TEXTURE) != 0 ? EL_PLANE_LIGHT_RED : EL_PLANE_RED];
-        for (unsigned i = 0; i < 3; i++) {
-            s.rgb[i] = colour_at(&planes[i], x);
-        }
+        s.red_step = triangle->rgb[0].dx;
+        s.green_step = triangle->rgb[1].dx;
+        s.blue_step = triangle->rgb[2].dx;
+        s.red = triangle->rgb[0].value + s.red_step * (uint32_t)skipped;
+        s.green = triangle->rgb[1].value + s.green_step * (uint32_t)skipped;
+        s.blue = triangle->rgb[2].value + s.blue_step * (uint32_t)skipped;
     }
     return s;
 }
 
-static inline void span_step(span *s, unsigned kind)
+static SPECIALISED void span_step(span *s, unsigned kind)
 {
     if ((kind & DEPTH) != 0) {
-        s->z.value += s->z.step;
+        s->z += s->z_step;
     }
     if ((kind & COLOURS) != 0) {
-        for (unsigned i = 0; i < 3; i++) {
-            s->rgb[i].value += s->rgb[i].step;
-        }
+        s->red += s->red_step;
+        s->green += s->green_step;
+        s->blue += s->blue_step;
     }
 }
 
-static inline uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint32_t v_q16)
+static SPECIALISED uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint32_t v_q16)
 {
     const uint32_t column = (u_q16 >> 16) & ((1U << texture->width_log2) - 1U);
     const uint32_t line = (v_q16 >> 16) & ((1U << texture->height_log2) - 1U);
@@ -81,40 +70,42 @@ static inline uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint3
 
 /* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
  * by the smallest threshold. */
-static inline uint32_t fraction_q16(uint32_t plus_half_q24)
+static SPECIALISED uint32_t fraction_q16(uint32_t plus_half_q24)
 {
     return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
 }
 
-/* Each channel of the texel times light / 255, where 255 leaves it as it is. */
-static inline uint16_t modulate(uint16_t texel, const stepped light[3], uint32_t threshold_q16, unsigned kind)
+/* A channel of a texel times light / 255, where 255 leaves it as it is. */
+static SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
 {
-    const uint32_t channels[3] = {texel >> 11, (texel >> 5) & 63U, texel & 31U};
-    uint32_t lit[3];
-    for (unsigned i = 0; i < 3; i++) {
-        lit[i] = (kind & DITHER) != 0 ? el_dither(fraction_q16(light[i].value), channels[i], threshold_q16)
-                                      : (channels[i] * ((light[i].value >> 24) + 1U)) >> 8;
-    }
-    return (uint16_t)((lit[0] << 11) | (lit[1] << 5) | lit[2]);
+    return (kind & DITHER) != 0 ? el_dither(fraction_q16(light), channel, threshold_q16)
+                                : (channel * ((light >> 24) + 1U)) >> 8;
 }
 
-static inline uint16_t coloured(const stepped rgb[3], uint32_t threshold_q16, unsigned kind)
+static SPECIALISED uint16_t modulate(uint32_t texel, const span *s, uint32_t threshold_q16, unsigned kind)
+{
+    return (uint16_t)(lit(texel >> 11, s->red, threshold_q16, kind) << 11 |
+                      lit((texel >> 5) & 63U, s->green, threshold_q16, kind) << 5 |
+                      lit(texel & 31U, s->blue, threshold_q16, kind));
+}
+
+static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsigned kind)
 {
     if ((kind & DITHER) != 0) {
-        return (uint16_t)(el_dither(fraction_q16(rgb[0].value), 31, threshold_q16) << 11 |
-                          el_dither(fraction_q16(rgb[1].value), 63, threshold_q16) << 5 |
-                          el_dither(fraction_q16(rgb[2].value), 31, threshold_q16));
+        return (uint16_t)(el_dither(fraction_q16(s->red), 31, threshold_q16) << 11 |
+                          el_dither(fraction_q16(s->green), 63, threshold_q16) << 5 |
+                          el_dither(fraction_q16(s->blue), 31, threshold_q16));
     }
-    return (uint16_t)((rgb[0].value >> 27 << 11) | (rgb[1].value >> 26 << 5) | rgb[2].value >> 27);
+    return (uint16_t)((s->red >> 27 << 11) | (s->green >> 26 << 5) | s->blue >> 27);
 }
 
 /* Whether the pixel is drawn; its depth is stored then. */
-static inline bool passes(const span *s, uint16_t *depth, unsigned kind)
+static SPECIALISED bool passes(const span *s, uint16_t *depth, unsigned kind)
 {
     if ((kind & DEPTH) == 0) {
         return true;
     }
-    const uint32_t z = (uint32_t)(s->z.value >> 32); /* 0..65535: the plane stays within its corners' range */
+    const uint32_t z = (uint32_t)(s->z >> 32); /* 0..65535: the plane stays within its corners' range */
     if (z >= *depth) {
         return false;
     }
@@ -127,28 +118,32 @@ typedef struct row {
     uint16_t *colour;
     uint16_t *depth;
     int32_t x, x_end;
+    int32_t skipped; /* left of the screen */
 } row;
 
-/* In one colour or in the vertices' colours. */
-static inline void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
+/* In one colour or in the vertices' colours. Counting up to 0 from the row's end leaves one number to step. */
+static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
 {
-    span s = span_begin(triangle, r.x, kind);
-    for (int32_t x = r.x; x < r.x_end; x++) {
-        if (passes(&s, &r.depth[x], kind)) {
-            r.colour[x] = (kind & COLOURS) != 0
-                              ? coloured(s.rgb, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
-                              : triangle->surface.colour;
+    span s = span_begin(triangle, r.skipped, kind);
+    const uint16_t flat = triangle->surface.colour;
+    uint16_t *const colour = r.colour + r.x_end;
+    uint16_t *const depth = r.depth + r.x_end;
+    const uint32_t y = (uint32_t)triangle->y;
+    for (int32_t i = r.x - r.x_end; i < 0; i++) {
+        if (passes(&s, &depth[i], kind)) {
+            colour[i] =
+                (kind & COLOURS) != 0 ? coloured(&s, el_dither_threshold_q16((uint32_t)(r.x_end + i), y), kind) : flat;
         }
         span_step(&s, kind);
     }
 }
 
 /* With a texture, in pieces along which texture coordinates are linear. */
-static inline void draw_textured(const el_triangle *triangle, row r, unsigned kind)
+static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
 {
-    span s = span_begin(triangle, r.x, kind);
+    span s = span_begin(triangle, r.skipped, kind);
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, r.x);
+    el_texture_walk_begin(&walk, triangle, r.skipped);
     int32_t x = r.x;
     while (x < r.x_end) {
         const int32_t length = el_texture_walk_piece(&walk, triangle, r.x_end - x);
@@ -156,11 +151,11 @@ static inline void draw_textured(const el_triangle *triangle, row r, unsigned ki
         uint32_t v_q16 = (uint32_t)walk.v_q16;
         for (const int32_t piece_end = x + length; x < piece_end; x++) {
             if (passes(&s, &r.depth[x], kind)) {
-                const uint16_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
+                const uint32_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
                 r.colour[x] =
                     (kind & COLOURS) != 0
-                        ? modulate(texel, s.rgb, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
-                        : texel;
+                        ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
+                        : (uint16_t)texel;
             }
             span_step(&s, kind);
             u_q16 += (uint32_t)walk.u_step_q16;
@@ -171,44 +166,97 @@ static inline void draw_textured(const el_triangle *triangle, row r, unsigned ki
 }
 
 /* Overdraw: the picture counts. */
-static void draw_count(row r)
+static SPECIALISED void draw_count(row r)
 {
     for (int32_t x = r.x; x < r.x_end; x++) {
         r.colour[x]++;
     }
 }
 
-static void next_row(el_triangle *triangle)
+/* A plane's way along the left edge: its whole step, and a pixel more where its fraction ran over. */
+static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
 {
-    triangle->y++;
-    el_edge_next_row(&triangle->edges[0]);
-    el_edge_next_row(&triangle->edges[1]);
-    if (triangle->y == triangle->y_middle) {
-        triangle->edges[triangle->short_is_left ? 0 : 1] = triangle->edges[2];
-    }
-    const unsigned count = el_plane_count(triangle->surface.shading);
-    for (unsigned i = 0; i < count; i++) {
-        triangle->planes[i].row += triangle->planes[i].dy;
+    plane->value += plane->down;
+    if (carry) {
+        plane->value += plane->dx;
     }
 }
 
-static inline void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+static SPECIALISED void channel_next_row(el_channel *channel, bool carry)
+{
+    channel->value += channel->down + (carry ? channel->dx : 0U);
+}
+
+static SPECIALISED void next_row(el_triangle *triangle, unsigned kind)
+{
+    const uint32_t fraction = (uint32_t)triangle->left.x_q32;
+    el_edge_next_row(&triangle->left);
+    el_edge_next_row(&triangle->right);
+    const bool carry = (uint32_t)triangle->left.x_q32 < fraction;
+    if ((kind & DEPTH) != 0) {
+        plane_next_row(&triangle->z, carry);
+    }
+    if ((kind & COLOURS) != 0) {
+        channel_next_row(&triangle->rgb[0], carry);
+        channel_next_row(&triangle->rgb[1], carry);
+        channel_next_row(&triangle->rgb[2], carry);
+    }
+    if ((kind & TEXTURE) != 0) {
+        plane_next_row(&triangle->perspective.w, carry);
+        plane_next_row(&triangle->perspective.u, carry);
+        plane_next_row(&triangle->perspective.v, carry);
+    }
+}
+
+static void bend_plane(el_plane *plane, int32_t aside, int32_t steeper)
+{
+    plane->value += el_plane_times(plane->dx, aside);
+    plane->down += el_plane_times(plane->dx, steeper);
+}
+
+/* The lower part begins: one edge gives way to the other, and the planes follow if it is the left one. */
+static void bend(el_triangle *triangle, unsigned kind)
+{
+    if (!triangle->short_is_left) {
+        triangle->right = triangle->lower;
+        return;
+    }
+    const int32_t aside = el_edge_x(&triangle->lower) - el_edge_x(&triangle->left);
+    const int32_t steeper = (int32_t)(triangle->lower.step_q32 >> 32) - (int32_t)(triangle->left.step_q32 >> 32);
+    triangle->left = triangle->lower;
+    if ((kind & DEPTH) != 0) {
+        bend_plane(&triangle->z, aside, steeper);
+    }
+    for (unsigned i = 0; i < 3 && (kind & COLOURS) != 0; i++) {
+        triangle->rgb[i].value += triangle->rgb[i].dx * (uint32_t)aside;
+        triangle->rgb[i].down += triangle->rgb[i].dx * (uint32_t)steeper;
+    }
+    if ((kind & TEXTURE) != 0) {
+        bend_plane(&triangle->perspective.w, aside, steeper);
+        bend_plane(&triangle->perspective.u, aside, steeper);
+        bend_plane(&triangle->perspective.v, aside, steeper);
+    }
+}
+
+static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     const int32_t y_end = triangle->y_end < target->y_end ? triangle->y_end : target->y_end;
-    while (triangle->y < y_end) {
-        const int32_t offset = (triangle->y - target->y) * target->width;
-        const int32_t left = triangle->edges[0].x;
-        const int32_t right = triangle->edges[1].x;
-        const row r = {
-            .colour = target->colour + offset,
-            .depth = target->depth + ((kind & DEPTH) != 0 ? offset : 0),
-            .x = left < 0 ? 0 : left,
-            .x_end = right > target->width ? target->width : right,
-        };
-        stats->rows++;
+    const int32_t width = target->width;
+    int32_t y = triangle->y;
+    const int32_t offset = (y - target->y) * width;
+    row r = {.colour = target->colour + offset, .depth = target->depth + ((kind & DEPTH) != 0 ? offset : 0)};
+    uint32_t spans = 0;
+    uint32_t pixels = 0;
+    stats->rows += (uint32_t)(y_end - y);
+    while (y < y_end) {
+        const int32_t left = el_edge_x(&triangle->left);
+        const int32_t right = el_edge_x(&triangle->right);
+        r.x = left < 0 ? 0 : left;
+        r.skipped = r.x - left;
+        r.x_end = right > width ? width : right;
         if (r.x < r.x_end) {
-            stats->spans++;
-            stats->pixels += (uint32_t)(r.x_end - r.x);
+            spans++;
+            pixels += (uint32_t)(r.x_end - r.x);
             if ((kind & COUNT) != 0) {
                 draw_count(r);
             } else if ((kind & TEXTURE) != 0) {
@@ -217,8 +265,17 @@ static inline void draw_rows(el_triangle *triangle, const el_target *target, el_
                 draw_coloured(triangle, r, kind);
             }
         }
-        next_row(triangle);
+        next_row(triangle, kind);
+        r.colour += width;
+        r.depth += (kind & DEPTH) != 0 ? width : 0;
+        y++;
+        triangle->y = (int16_t)y;
+        if (y == triangle->y_middle) {
+            bend(triangle, kind);
+        }
     }
+    stats->spans += spans;
+    stats->pixels += pixels;
 }
 
 static unsigned kind_of(const el_surface *surface)
@@ -261,24 +318,37 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
     }
 }
 
+void el_triangle_next_row(el_triangle *triangle)
+{
+    const unsigned kind = kind_of(&triangle->surface);
+    next_row(triangle, kind);
+    triangle->y++;
+    if (triangle->y == triangle->y_middle) {
+        bend(triangle, kind);
+    }
+}
+
 void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample)
 {
     const unsigned kind = kind_of(&triangle->surface);
-    const int32_t begin = triangle->edges[0].x < 0 ? 0 : triangle->edges[0].x;
-    const int32_t end = triangle->edges[1].x > width ? width : triangle->edges[1].x;
-    span s = span_begin(triangle, begin, kind);
+    const int32_t left = el_edge_x(&triangle->left);
+    const int32_t begin = left < 0 ? 0 : left;
+    const int32_t end = el_edge_x(&triangle->right) > width ? width : el_edge_x(&triangle->right);
+    span s = span_begin(triangle, begin - left, kind);
     for (int32_t at = begin; at < x; at++) {
         span_step(&s, kind);
     }
-    *sample = (el_sample){.z_plus_half_q16 = (uint32_t)(s.z.value >> 16)};
-    for (unsigned i = 0; i < 3; i++) {
-        sample->rgb_plus_half_q24[i] = s.rgb[i].value;
+    *sample = (el_sample){.z_plus_half_q16 = (kind & DEPTH) != 0 ? (uint32_t)(s.z >> 16) : 0U};
+    if ((kind & COLOURS) != 0) {
+        sample->rgb_plus_half_q24[0] = s.red;
+        sample->rgb_plus_half_q24[1] = s.green;
+        sample->rgb_plus_half_q24[2] = s.blue;
     }
     if ((kind & TEXTURE) == 0) {
         return;
     }
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, begin);
+    el_texture_walk_begin(&walk, triangle, begin - left);
     int32_t at = begin;
     int32_t length = el_texture_walk_piece(&walk, triangle, end - at);
     while (x >= at + length) {

@@ -60,12 +60,12 @@ static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, con
 static void exact(const el_texture_walk *walk, const el_triangle *triangle, uint32_t pixels, int32_t *u_q16,
                   int32_t *v_q16)
 {
-    const el_plane *const planes = triangle->planes;
-    const uint64_t w_q32 = walk->w + planes[EL_PLANE_W].dx * pixels;
+    const el_perspective *const p = &triangle->perspective;
+    const uint64_t w_q32 = walk->w + p->w.dx * pixels;
     const int w_shift = w_q32 == 0 ? 0 : __builtin_clzll(w_q32);
     const el_divisor w = el_divisor_make((uint32_t)((w_q32 << w_shift) >> 32) | (1U << 31));
-    *u_q16 = knot(walk->u + planes[EL_PLANE_U].dx * pixels, triangle->u_shift, triangle->u_base_q16, &w, w_shift);
-    *v_q16 = knot(walk->v + planes[EL_PLANE_V].dx * pixels, triangle->v_shift, triangle->v_base_q16, &w, w_shift);
+    *u_q16 = knot(walk->u + p->u.dx * pixels, p->u_shift, p->u_base_q16, &w, w_shift);
+    *v_q16 = knot(walk->v + p->v.dx * pixels, p->v_shift, p->v_base_q16, &w, w_shift);
 }
 
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
@@ -85,13 +85,12 @@ static bool is_steep(const el_plane *plane)
     return el_abs_u64((int64_t)plane->dx) >= 1ULL << (32 + STEEP_LOG2);
 }
 
-void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x)
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t skipped)
 {
-    const el_plane *const planes = triangle->planes;
-    const uint64_t column = (uint64_t)(int64_t)x;
-    walk->w = planes[EL_PLANE_W].row + planes[EL_PLANE_W].dx * column;
-    walk->u = planes[EL_PLANE_U].row + planes[EL_PLANE_U].dx * column;
-    walk->v = planes[EL_PLANE_V].row + planes[EL_PLANE_V].dx * column;
+    const el_perspective *const p = &triangle->perspective;
+    walk->w = p->w.value + el_plane_times(p->w.dx, skipped);
+    walk->u = p->u.value + el_plane_times(p->u.dx, skipped);
+    walk->v = p->v.value + el_plane_times(p->v.dx, skipped);
     walk->length = LENGTHS - 1;
     exact(walk, triangle, 0, &walk->u_q16, &walk->v_q16);
     walk->next_u_q16 = walk->u_q16;
@@ -99,16 +98,15 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     walk->u_step_q16 = 0;
     walk->v_step_q16 = 0;
 
-    if (planes[EL_PLANE_W].dx == 0) {
+    if (p->w.dx == 0) {
         walk->limit_q8 = -NEVER_Q8;
-    } else if (is_steep(&planes[EL_PLANE_W]) || is_steep(&planes[EL_PLANE_U]) || is_steep(&planes[EL_PLANE_V])) {
+    } else if (is_steep(&p->w) || is_steep(&p->u) || is_steep(&p->v)) {
         walk->limit_q8 = NEVER_Q8;
     } else {
         const int32_t w = (int32_t)whole(walk->w);
-        const int32_t w_step_q4 = (int32_t)((int64_t)planes[EL_PLANE_W].dx >> 28);
-        const int32_t curvature =
-            el_max_i32(curvature_q8(walk->u, &planes[EL_PLANE_U], w, w_step_q4, triangle->u_shift),
-                       curvature_q8(walk->v, &planes[EL_PLANE_V], w, w_step_q4, triangle->v_shift));
+        const int32_t w_step_q4 = (int32_t)((int64_t)p->w.dx >> 28);
+        const int32_t curvature = el_max_i32(curvature_q8(walk->u, &p->u, w, w_step_q4, p->u_shift),
+                                             curvature_q8(walk->v, &p->v, w, w_step_q4, p->v_shift));
         const int32_t w_step = log2_ceil_q8(el_abs_u64(w_step_q4) + 1U);
         /* 4 bits of fraction twice, 16 bits of u and v. */
         const int32_t product_q8 = curvature + w_step - (4 + 4 + 16) * 256;
@@ -124,7 +122,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
     if (left == 1) {
         return 1;
     }
-    const uint64_t w_step = triangle->planes[EL_PLANE_W].dx;
+    const uint64_t w_step = triangle->perspective.w.dx;
     const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
     const int32_t most = left - 1;
@@ -160,9 +158,9 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
 void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length)
 {
     const uint64_t pixels = (uint64_t)(int64_t)length;
-    walk->w += triangle->planes[EL_PLANE_W].dx * pixels;
-    walk->u += triangle->planes[EL_PLANE_U].dx * pixels;
-    walk->v += triangle->planes[EL_PLANE_V].dx * pixels;
+    walk->w += triangle->perspective.w.dx * pixels;
+    walk->u += triangle->perspective.u.dx * pixels;
+    walk->v += triangle->perspective.v.dx * pixels;
     walk->u_q16 = walk->next_u_q16;
     walk->v_q16 = walk->next_v_q16;
 }

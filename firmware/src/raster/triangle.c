@@ -4,22 +4,25 @@
 
 #include "base/fixed.h"
 
-unsigned el_plane_count(el_shading shading)
+_Static_assert((EL_EDGE_MAX_ROWS + 3LL) * (EL_SUBPIXEL_BITS == 4 ? 16 : 1) * 2 * EL_GUARD_SUB < 1LL << 32,
+               "what is cut off on the way is less than a step of the grid");
+
+static bool is_textured(el_shading shading)
 {
-    switch (shading) {
-    case EL_SHADE_GOURAUD:
-    case EL_SHADE_TEXTURED:
-        return 4;
-    case EL_SHADE_TEXTURED_GOURAUD:
-        return 7;
-    default:
-        return 1;
-    }
+    return shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD;
+}
+
+static bool has_colours(el_shading shading)
+{
+    return shading == EL_SHADE_GOURAUD || shading == EL_SHADE_TEXTURED_GOURAUD;
 }
 
 uint32_t el_triangle_bytes(el_shading shading)
 {
-    return (uint32_t)(offsetof(el_triangle, planes) + el_plane_count(shading) * sizeof(el_plane));
+    if (is_textured(shading)) {
+        return sizeof(el_triangle);
+    }
+    return has_colours(shading) ? offsetof(el_triangle, perspective) : offsetof(el_triangle, rgb);
 }
 
 /* Corners from the top to the bottom, and from left to right where they are level: whichever corner the caller began
@@ -60,42 +63,46 @@ static void divide_texture_coordinate(const int32_t coordinates_q16[3], const ui
     }
 }
 
+static void make_perspective(el_perspective *perspective, const el_corner *const corners[3],
+                             const el_plane_frame *frame)
+{
+    int32_t u_q16[3];
+    int32_t v_q16[3];
+    uint32_t w[3];
+    for (unsigned i = 0; i < 3; i++) {
+        u_q16[i] = corners[i]->u_q16;
+        v_q16[i] = corners[i]->v_q16;
+        w[i] = corners[i]->w;
+    }
+    /* 1/w with its largest corner just below 2^31. */
+    const int shift = 31 - el_bit_length_u32(w[0] | w[1] | w[2]);
+    int64_t values[3];
+    for (unsigned i = 0; i < 3; i++) {
+        w[i] <<= shift;
+        values[i] = w[i];
+    }
+    el_plane_make(&perspective->w, frame, values, 0);
+    divide_texture_coordinate(u_q16, w, &perspective->u_base_q16, &perspective->u_shift, values);
+    el_plane_make(&perspective->u, frame, values, EL_PLANE_FRACTION_BITS);
+    divide_texture_coordinate(v_q16, w, &perspective->v_base_q16, &perspective->v_shift, values);
+    el_plane_make(&perspective->v, frame, values, EL_PLANE_FRACTION_BITS);
+}
+
 static void make_planes(el_triangle *triangle, const el_corner *const corners[3], const el_plane_frame *frame)
 {
     const el_shading shading = triangle->surface.shading;
-    const bool textured = shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD;
-    int64_t values[EL_MAX_PLANES][3];
-    if (textured) {
-        int32_t u_q16[3];
-        int32_t v_q16[3];
-        uint32_t w[3];
-        for (unsigned i = 0; i < 3; i++) {
-            u_q16[i] = corners[i]->u_q16;
-            v_q16[i] = corners[i]->v_q16;
-            w[i] = corners[i]->w;
-        }
-        /* 1/w with its largest corner just below 2^31. */
-        const int shift = 31 - el_bit_length_u32(w[0] | w[1] | w[2]);
-        for (unsigned i = 0; i < 3; i++) {
-            w[i] <<= shift;
-            values[EL_PLANE_W][i] = w[i];
-        }
-        divide_texture_coordinate(u_q16, w, &triangle->u_base_q16, &triangle->u_shift, values[EL_PLANE_U]);
-        divide_texture_coordinate(v_q16, w, &triangle->v_base_q16, &triangle->v_shift, values[EL_PLANE_V]);
+    if (triangle->surface.depth) {
+        const uint16_t z[3] = {corners[0]->z, corners[1]->z, corners[2]->z};
+        el_plane_make_u16(&triangle->z, frame, z);
     }
-    const unsigned first_colour = textured ? EL_PLANE_LIGHT_RED : EL_PLANE_RED;
-    for (unsigned i = 0; i < 3; i++) {
-        values[EL_PLANE_Z][i] = corners[i]->z;
-        for (unsigned channel = 0; channel < 3; channel++) {
-            values[first_colour + channel][i] = corners[i]->rgb_q8[channel];
+    if (has_colours(shading)) {
+        for (unsigned i = 0; i < 3; i++) {
+            const uint16_t values[3] = {corners[0]->rgb_q8[i], corners[1]->rgb_q8[i], corners[2]->rgb_q8[i]};
+            el_channel_make(&triangle->rgb[i], frame, values);
         }
     }
-    /* Without depth its plane is not made, but it is stepped with the others: a loop with one exception costs more. */
-    triangle->planes[EL_PLANE_Z] = (el_plane){0};
-    const unsigned count = el_plane_count(shading);
-    for (unsigned i = triangle->surface.depth ? 0U : 1U; i < count; i++) {
-        const bool has_fraction = textured && (i == EL_PLANE_U || i == EL_PLANE_V);
-        el_plane_make(&triangle->planes[i], frame, values[i], has_fraction ? EL_PLANE_FRACTION_BITS : 0U);
+    if (is_textured(shading)) {
+        make_perspective(&triangle->perspective, corners, frame);
     }
 }
 
@@ -118,13 +125,13 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
     triangle->y_end = (int16_t)y_end;
     /* With y down, a positive area means that the middle corner is on the right of the long edge. */
     triangle->short_is_left = area < 0;
-    el_edge *const short_edge = &triangle->edges[triangle->short_is_left ? 0 : 1];
-    el_edge *const long_edge = &triangle->edges[triangle->short_is_left ? 1 : 0];
+    el_edge *const short_edge = triangle->short_is_left ? &triangle->left : &triangle->right;
+    el_edge *const long_edge = triangle->short_is_left ? &triangle->right : &triangle->left;
     el_edge_make(long_edge, x[0], y[0], x[2], y[2], y_begin);
     if (y_begin < y_middle) {
         el_edge_make(short_edge, x[0], y[0], x[1], y[1], y_begin);
         if (y_middle < y_end) {
-            el_edge_make(&triangle->edges[2], x[1], y[1], x[2], y[2], y_middle);
+            el_edge_make(&triangle->lower, x[1], y[1], x[2], y[2], y_middle);
         }
     } else {
         el_edge_make(short_edge, x[1], y[1], x[2], y[2], y_begin);
@@ -132,7 +139,10 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
     }
 
     el_plane_frame frame;
-    el_plane_frame_make(&frame, x, y, y_begin);
+    el_plane_frame_make(&frame, x, y);
+    frame.x = el_edge_x(&triangle->left);
+    frame.row = y_begin;
+    frame.step = (int32_t)(triangle->left.step_q32 >> 32);
     make_planes(triangle, sorted, &frame);
     return true;
 }

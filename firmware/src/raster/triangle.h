@@ -1,7 +1,7 @@
 /* One triangle under way: set up at a row, then drawn row by row through as many bands as it touches.
  *
- * Everything is exact or modulo 2^n, so a triangle that is set up at row 100 has the same state as one that was set up at
- * row 0 and walked there: pixels do not depend on bands. */
+ * Everything that pixels come from is exact or modulo 2^n, so a triangle that is set up at row 100 draws the same as one that
+ * was set up at row 0 and walked there: pixels do not depend on bands. */
 #ifndef EL_RASTER_TRIANGLE_H
 #define EL_RASTER_TRIANGLE_H
 
@@ -16,20 +16,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* The planes of each shading, in this order. */
-enum {
-    EL_PLANE_Z = 0,   /* depth */
-    EL_PLANE_RED = 1, /* Gouraud: red, green, blue in 8.8 */
-    EL_PLANE_W = 1,   /* textured: 1/w, (u - u_base)/w, (v - v_base)/w, then the light's red, green, blue in 8.8 */
-    EL_PLANE_U = 2,
-    EL_PLANE_V = 3,
-    EL_PLANE_LIGHT_RED = 4,
-    EL_MAX_PLANES = 7
-};
-
-/* How many planes a shading uses. */
-unsigned el_plane_count(el_shading shading);
 
 /* A triangle for set-up: screen corners and what is shaded. Both windings are drawn. */
 typedef struct el_corner {
@@ -49,18 +35,27 @@ typedef struct el_surface {
     const el_texture *texture; /* textured */
 } el_surface;
 
-typedef struct el_triangle {
-    el_edge edges[3]; /* left and right edge of the current part, then the lower part's other edge */
-    int16_t y;        /* next row */
-    int16_t y_middle; /* first row of the lower part */
-    int16_t y_end;
-    bool short_is_left; /* the side that bends at y_middle */
-    el_surface surface;
+/* u/w, v/w and 1/w, from which texture coordinates are made. */
+typedef struct el_perspective {
+    el_plane w, u, v;
     int32_t u_base_q16; /* whole texels, in the middle of the triangle's range */
     int32_t v_base_q16;
     uint8_t u_shift; /* u - u_base in Q16 = (U << u_shift) / W */
     uint8_t v_shift;
-    el_plane planes[EL_MAX_PLANES]; /* the first el_plane_count are used; the others need not be in memory */
+} el_perspective;
+
+typedef struct el_triangle {
+    el_edge left, right; /* of the current part */
+    el_edge lower;       /* the lower part's other edge */
+    int16_t y;           /* next row */
+    int16_t y_middle;    /* first row of the lower part */
+    int16_t y_end;
+    bool short_is_left; /* the side that bends at y_middle */
+    el_surface surface;
+    /* What a shading does not use, at the end, need not be in memory. */
+    el_plane z;
+    el_channel rgb[3];          /* vertex colours, or light on a texture */
+    el_perspective perspective; /* textured */
 } el_triangle;
 
 /* Bytes of an el_triangle of that shading. */
@@ -82,6 +77,9 @@ typedef struct el_target {
 /* Draws the triangle's rows from triangle->y to the target's last and moves it on to the row after them.
  * Pre: triangle->y >= target->y. */
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats);
+
+/* Moves the triangle on by a row without drawing. */
+void el_triangle_next_row(el_triangle *triangle);
 
 static inline bool el_triangle_is_done(const el_triangle *triangle)
 {

@@ -27,7 +27,7 @@ BENCH_INLINE void exact_walk(int32_t x[3], int32_t y[3], uint16_t *picture)
         el_edge_make(bent, x[part], y[part], x[part + 1], y[part + 1], row);
         for (; row < part_end; row++) {
             uint16_t *const pixels = picture + row * WIDTH;
-            for (int32_t column = edges[0].x; column < edges[1].x; column++) {
+            for (int32_t column = el_edge_x(&edges[0]); column < el_edge_x(&edges[1]); column++) {
                 pixels[column] = 1;
             }
             el_edge_next_row(&edges[0]);

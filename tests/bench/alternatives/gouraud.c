@@ -2,17 +2,12 @@
  * and blue, 8.24, half a unit added. */
 #include "spans.h"
 
-enum { PLANES = 4, VALUES = 3, RECORD_BYTES = PICTURES * PIXELS * VALUES * 4, ANCHOR = 16 };
+enum { VALUES = 3, RECORD_BYTES = PICTURES * PIXELS * VALUES * 4, ANCHOR = 16 };
 
 static el_surface surface_of(const bench_case *self)
 {
     (void)self;
     return (el_surface){.shading = EL_SHADE_GOURAUD};
-}
-
-BENCH_INLINE uint64_t at_pixel(const el_plane *plane, int32_t x)
-{
-    return plane->row + plane->dx * (uint64_t)(int64_t)x;
 }
 
 /* Channels in 8.24 each, of which the upper bits are the pixel. */
@@ -26,15 +21,20 @@ BENCH_INLINE void put(const span_target *row, int32_t x, uint32_t red, uint32_t 
     row->colour[x] = (uint16_t)(red >> 27 << 11 | green >> 26 << 5 | blue >> 27);
 }
 
+/* 8.24 with its half added. */
+BENCH_INLINE uint32_t channel_at(const el_triangle *triangle, unsigned i, int32_t x)
+{
+    return triangle->rgb[i].value + triangle->rgb[i].dx * (uint32_t)(x - el_edge_x(&triangle->left));
+}
+
 /* The renderer's: 8.24 each, the step rounded to nearest. */
 BENCH_INLINE void per_channel(const el_triangle *triangle, const span_target *row, int32_t x, int32_t x_end)
 {
     uint32_t value[3];
     uint32_t step[3];
     for (unsigned i = 0; i < 3; i++) {
-        const el_plane *const plane = &triangle->planes[EL_PLANE_RED + i];
-        value[i] = (uint32_t)(at_pixel(plane, x) >> 16) + (0x80U << 16);
-        step[i] = (uint32_t)((plane->dx + 0x8000U) >> 16);
+        value[i] = channel_at(triangle, i, x);
+        step[i] = triangle->rgb[i].dx;
     }
     for (; x < x_end; x++) {
         put(row, x, value[0], value[1], value[2]);
@@ -52,19 +52,16 @@ typedef struct packed {
 
 BENCH_INLINE packed packed_at(const el_triangle *triangle, int32_t x)
 {
-    const el_plane *const planes = &triangle->planes[EL_PLANE_RED];
-    const uint32_t half = 0x80U;
-    const uint32_t red = (uint32_t)(at_pixel(&planes[0], x) >> 32) + half;
-    const uint32_t blue = (uint32_t)(at_pixel(&planes[2], x) >> 32) + half;
-    return (packed){red << 16 | (blue & 0xFFFFU), (uint32_t)(at_pixel(&planes[1], x) >> 32) + half};
+    const uint32_t red = channel_at(triangle, 0, x);
+    const uint32_t blue = channel_at(triangle, 2, x);
+    return (packed){(red & 0xFFFF0000U) | blue >> 16, channel_at(triangle, 1, x) >> 16};
 }
 
 BENCH_INLINE packed packed_step(const el_triangle *triangle)
 {
-    const el_plane *const planes = &triangle->planes[EL_PLANE_RED];
     uint32_t step[3];
     for (unsigned i = 0; i < 3; i++) {
-        step[i] = (uint32_t)((planes[i].dx + (1U << 31)) >> 32);
+        step[i] = (uint32_t)((int32_t)(triangle->rgb[i].dx + 0x8000U) >> 16);
     }
     return (packed){(step[0] << 16) + step[2], step[1]};
 }
@@ -94,10 +91,10 @@ BENCH_INLINE void packed_anchored(const el_triangle *triangle, const span_target
     }
 }
 
-SPAN_CASE(per_channel, PLANES, VALUES, per_channel)
-SPAN_CASE(packed, PLANES, VALUES, packed_words)
-SPAN_CASE(packed_anchored, PLANES, VALUES, packed_anchored)
-SPAN_CASE(renderer, PLANES, VALUES, NULL)
+SPAN_CASE(per_channel, VALUES, per_channel)
+SPAN_CASE(packed, VALUES, packed_words)
+SPAN_CASE(packed_anchored, VALUES, packed_anchored)
+SPAN_CASE(renderer, VALUES, NULL)
 
 #define GOURAUD(name, record_bytes)                                                                                    \
     {                                                                                                                  \

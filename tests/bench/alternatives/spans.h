@@ -18,34 +18,31 @@ typedef void span_function(const el_triangle *triangle, const span_target *row, 
 
 enum { BATCH = 64 };
 
+/* A plane's value at pixel x of the triangle's current row. */
+BENCH_INLINE uint64_t plane_at(const el_triangle *triangle, const el_plane *plane, int32_t x)
+{
+    return plane->value + plane->dx * (uint64_t)(int64_t)(x - el_edge_x(&triangle->left));
+}
+
 /* Steps the triangle over all of its rows as raster/rows.c does. */
-BENCH_INLINE void draw_spans(el_triangle *triangle, const span_target *picture, unsigned planes, unsigned values,
-                             span_function *span)
+BENCH_INLINE void draw_spans(el_triangle *triangle, const span_target *picture, unsigned values, span_function *span)
 {
     while (triangle->y < triangle->y_end) {
-        const int32_t x = triangle->edges[0].x;
-        const int32_t x_end = triangle->edges[1].x;
+        const int32_t x = el_edge_x(&triangle->left);
+        const int32_t x_end = el_edge_x(&triangle->right);
         if (x < x_end) {
             const int32_t at = triangle->y * WIDTH;
             const span_target row = {picture->colour + at, picture->depth + at,
                                      picture->record == NULL ? NULL : picture->record + at * (int32_t)values};
             span(triangle, &row, x, x_end);
         }
-        triangle->y++;
-        el_edge_next_row(&triangle->edges[0]);
-        el_edge_next_row(&triangle->edges[1]);
-        if (triangle->y == triangle->y_middle) {
-            triangle->edges[triangle->short_is_left ? 0 : 1] = triangle->edges[2];
-        }
-        for (unsigned i = 0; i < planes; i++) {
-            triangle->planes[i].row += triangle->planes[i].dy;
-        }
+        el_triangle_next_row(triangle);
     }
 }
 
 /* The triangles of a range, BATCH at a time: set up, then drawn while it counts. `span` NULL: by the renderer. */
-BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigned planes, unsigned values,
-                           int32_t *record, span_function *span)
+BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigned values, int32_t *record,
+                           span_function *span)
 {
     static el_triangle batch[BATCH];
     uint32_t pictures[BATCH];
@@ -67,7 +64,7 @@ BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigne
             } else {
                 const span_target target = {bench_colour[picture], bench_depth[picture],
                                             record == NULL ? NULL : record + picture * PIXELS * values};
-                draw_spans(&batch[k], &target, planes, values, span);
+                draw_spans(&batch[k], &target, values, span);
             }
         }
         bench_stop();
@@ -75,14 +72,14 @@ BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigne
 }
 
 /* The `run` of a case, NAME_case, that draws with SPAN. Whether it records is decided here, once. */
-#define SPAN_CASE(span_name, planes, values, span)                                                                     \
+#define SPAN_CASE(span_name, values, span)                                                                             \
     static void span_name##_case(const bench_case *self, int32_t *record)                                              \
     {                                                                                                                  \
         const el_surface surface = surface_of(self);                                                                   \
         if (record != NULL) {                                                                                          \
-            draw_all(&surface, self->triangles, planes, values, record, span);                                         \
+            draw_all(&surface, self->triangles, values, record, span);                                                 \
         } else {                                                                                                       \
-            draw_all(&surface, self->triangles, planes, values, NULL, span);                                           \
+            draw_all(&surface, self->triangles, values, NULL, span);                                                   \
         }                                                                                                              \
     }
 

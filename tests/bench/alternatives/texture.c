@@ -4,7 +4,7 @@
 #include "raster/texture_walk.h"
 #include "spans.h"
 
-enum { PLANES = 4, VALUES = 2, RECORD_BYTES = PICTURES * PIXELS * VALUES * 4 };
+enum { VALUES = 2, RECORD_BYTES = PICTURES * PIXELS * VALUES * 4 };
 
 /* The renderer fetches from it too, so it is a real one: 64 x 64, each texel its own index. */
 enum { TEXELS_LOG2 = 6, TEXELS = 1 << (2 * TEXELS_LOG2) };
@@ -38,7 +38,7 @@ BENCH_INLINE void linear(const el_triangle *triangle, const span_target *row, in
 BENCH_INLINE void bounded(const el_triangle *triangle, const span_target *row, int32_t x, int32_t x_end)
 {
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, x);
+    el_texture_walk_begin(&walk, triangle, 0);
     while (x < x_end) {
         const int32_t length = el_texture_walk_piece(&walk, triangle, x_end - x);
         linear(triangle, row, x, x + length, walk.u_q16, walk.v_q16, walk.u_step_q16, walk.v_step_q16);
@@ -54,16 +54,14 @@ typedef struct coordinates {
 /* base + (U << shift) / W at pixel x: one reciprocal, two quotients. */
 static coordinates divided(const el_triangle *triangle, int32_t x)
 {
-    const el_plane *const planes = triangle->planes;
-    const uint64_t column = (uint64_t)(int64_t)x;
     const uint64_t half = 1ULL << 31;
-    const uint32_t w = (uint32_t)((planes[EL_PLANE_W].row + planes[EL_PLANE_W].dx * column + half) >> 32);
-    const int32_t u = (int32_t)(uint32_t)((planes[EL_PLANE_U].row + planes[EL_PLANE_U].dx * column + half) >> 32);
-    const int32_t v = (int32_t)(uint32_t)((planes[EL_PLANE_V].row + planes[EL_PLANE_V].dx * column + half) >> 32);
+    const uint32_t w = (uint32_t)((plane_at(triangle, &triangle->perspective.w, x) + half) >> 32);
+    const int32_t u = (int32_t)(uint32_t)((plane_at(triangle, &triangle->perspective.u, x) + half) >> 32);
+    const int32_t v = (int32_t)(uint32_t)((plane_at(triangle, &triangle->perspective.v, x) + half) >> 32);
     const el_divisor by = el_divisor_make(w);
     return (coordinates){
-        triangle->u_base_q16 + el_divide_floor_i64(u * ((int64_t)1 << triangle->u_shift), &by),
-        triangle->v_base_q16 + el_divide_floor_i64(v * ((int64_t)1 << triangle->v_shift), &by),
+        triangle->perspective.u_base_q16 + el_divide_floor_i64(u * ((int64_t)1 << triangle->perspective.u_shift), &by),
+        triangle->perspective.v_base_q16 + el_divide_floor_i64(v * ((int64_t)1 << triangle->perspective.v_shift), &by),
     };
 }
 
@@ -116,12 +114,12 @@ static el_surface surface_of(const bench_case *self)
     return (el_surface){.shading = EL_SHADE_TEXTURED, .uv_error_log2 = self->uv_error_log2, .texture = &texture};
 }
 
-SPAN_CASE(bounded, PLANES, VALUES, bounded)
-SPAN_CASE(affine, PLANES, VALUES, affine)
-SPAN_CASE(fixed16, PLANES, VALUES, fixed_16)
-SPAN_CASE(fixed8, PLANES, VALUES, fixed_8)
-SPAN_CASE(per_pixel, PLANES, VALUES, per_pixel)
-SPAN_CASE(renderer, PLANES, VALUES, NULL)
+SPAN_CASE(bounded, VALUES, bounded)
+SPAN_CASE(affine, VALUES, affine)
+SPAN_CASE(fixed16, VALUES, fixed_16)
+SPAN_CASE(fixed8, VALUES, fixed_8)
+SPAN_CASE(per_pixel, VALUES, per_pixel)
+SPAN_CASE(renderer, VALUES, NULL)
 
 #define ROW(group, name, run, bytes, uv_error_log2, begin, end)                                                        \
     {                                                                                                                  \
