@@ -91,7 +91,7 @@ static void test_edges_in_the_guard_band_seeded(void)
 static void test_short_edges(void)
 {
     enum { SHORT = 32 * EL_SUBPIXELS, NARROW = 64 * EL_SUBPIXELS };
-    for (seeded s = seeded_from(41); s.round < 20000; s.round++) {
+    for (seeded s = seeded_from(41); s.round < PART_OF(20000); s.round++) {
         const int32_t x = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
         const int32_t y = (int32_t)any_between(&s, -EL_GUARD_SUB / 2, EL_GUARD_SUB / 2);
         const int32_t beside = (int32_t)any_between(&s, -2, 2);

@@ -103,7 +103,7 @@ static void test_products(void)
             expect_products(&s, a, -halves[k]);
         }
     }
-    for (; s.round < 200000; s.round++) {
+    for (; s.round < PART_OF(200000); s.round++) {
         expect_products(&s, any_of_bits(&s, 64), (int32_t)any_signed_of_bits(&s, 31));
     }
 }
@@ -125,7 +125,7 @@ static void test_square_roots(void)
         expect_root(&s, x);
     }
     expect_root(&s, UINT64_MAX);
-    for (; s.round < 20000; s.round++) {
+    for (; s.round < PART_OF(20000); s.round++) {
         const uint64_t root = any_of_bits(&s, 32);
         expect_root(&s, root * root);
         expect_root(&s, root * root + 1);
@@ -169,7 +169,7 @@ static void test_scale_ties_go_up(void)
 
 static void test_scale_seeded(void)
 {
-    for (seeded s = seeded_from(2); s.round < 200000; s.round++) {
+    for (seeded s = seeded_from(2); s.round < PART_OF(200000); s.round++) {
         const int64_t value = any_signed_of_bits(&s, 63);
         const uint32_t factor = (uint32_t)any_of_bits(&s, 32);
         expect_scaled(&s, value, factor, (int)any_between(&s, 0, 94));
@@ -179,7 +179,7 @@ static void test_scale_seeded(void)
 /* A product whose discarded part is exactly one half, or one unit beside it. */
 static void test_scale_next_to_ties(void)
 {
-    for (seeded s = seeded_from(3); s.round < 100000; s.round++) {
+    for (seeded s = seeded_from(3); s.round < PART_OF(100000); s.round++) {
         const int shift = (int)any_between(&s, 1, 62);
         const int64_t odd = any_signed_of_bits(&s, (unsigned)(63 - shift)) | 1;
         const int64_t tie = odd * (1LL << (shift - 1));
@@ -228,7 +228,7 @@ static void test_shift_saturates(void)
 
 static void test_shift_seeded(void)
 {
-    for (seeded s = seeded_from(4); s.round < 200000; s.round++) {
+    for (seeded s = seeded_from(4); s.round < PART_OF(200000); s.round++) {
         const int64_t value = any_signed_of_bits(&s, 63);
         expect_shifted(&s, value, (int)any_between(&s, -62, 70));
     }

@@ -102,7 +102,7 @@ static void expect_beside_steps_of_depth(seeded *s, el_transform *transform)
 
 static void test_clip_coordinates_of_all_kinds(void)
 {
-    for (seeded s = seeded_from(90); s.round < 150000; s.round++) {
+    for (seeded s = seeded_from(90); s.round < PART_OF(150000); s.round++) {
         el_transform transform = any_transform(&s);
         const int64_t any = 1 + (int64_t)any_of_bits(&s, 31) % INT32_MAX;
         expect_beside_steps_of_depth(&s, &transform);
@@ -116,7 +116,7 @@ static void test_clip_coordinates_of_all_kinds(void)
 
 static void test_orthographic_projection(void)
 {
-    for (seeded s = seeded_from(91); s.round < 200000; s.round++) {
+    for (seeded s = seeded_from(91); s.round < PART_OF(200000); s.round++) {
         el_transform transform = any_transform(&s);
         transform.orthographic = 1;
         transform.constant_w = (int32_t)(1U << any_between(&s, 8, 30));
@@ -134,7 +134,7 @@ static void test_orthographic_projection(void)
 static void test_transforms_of_cameras(void)
 {
     static const el_mesh mesh = {.vertex_count = 1, .scale_log2 = -8, .radius = 32767};
-    for (seeded s = seeded_from(92); s.round < 20000; s.round++) {
+    for (seeded s = seeded_from(92); s.round < PART_OF(20000); s.round++) {
         el_camera camera = plain_camera();
         el_view view;
         el_transform transform;
