@@ -4,6 +4,7 @@
 
 int el_command_list(int argc, char **argv);
 int el_command_render(int argc, char **argv);
+int el_command_look(int argc, char **argv);
 int el_command_memory(int argc, char **argv);
 int el_command_stream(int argc, char **argv);
 int el_command_coverage(int argc, char **argv);

@@ -35,6 +35,7 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
         options->subject.scene = text;
         return true;
     case EL_OPTION_SIZE:
+        options->size = text;
         return el_option_size("--size", text, &options->machine.width, &options->machine.height);
     case EL_OPTION_BAND:
         options->band = text;
@@ -47,13 +48,46 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
         return true;
     case EL_OPTION_FRAMES:
         return el_option_integer("--frames", text, 1, INT_MAX, &options->frames);
+    case EL_OPTION_PANEL:
+        options->machine.panel = text;
+        return el_display_profile(text) != NULL;
+    case EL_OPTION_ROTATION:
+        options->rotation = text;
+        return el_option_rotation("--rotation", text, &options->machine.rotation);
     default:
         return take_uv_error(options, text);
     }
 }
 
+/* Frames as large as the glass, or smaller ones if they were asked for. */
+static bool fit_panel(el_common_options *options)
+{
+    el_machine_config *const machine = &options->machine;
+    const el_lcd_profile *const glass = el_lcd_profile_find(machine->panel);
+    const unsigned degrees = el_display_degrees(machine->rotation);
+    const bool lies = degrees == 90 || degrees == 270;
+    const uint16_t width = lies ? glass->rows : glass->columns;
+    const uint16_t height = lies ? glass->columns : glass->rows;
+    if (options->size == NULL) {
+        machine->width = width;
+        machine->height = height;
+    } else if (machine->width > width || machine->height > height) {
+        el_report("--size %s is larger than the %s, which shows %ux%u pixels as it is turned", options->size,
+                  machine->panel, width, height);
+        return false;
+    }
+    return true;
+}
+
 bool el_common_options_check(el_common_options *options)
 {
+    if (options->rotation != NULL && options->machine.panel == NULL) {
+        el_report("--rotation goes with --panel");
+        return false;
+    }
+    if (options->machine.panel != NULL && !fit_panel(options)) {
+        return false;
+    }
     return el_option_band(options->band, options->machine.height, &options->machine.band_lines);
 }
 

@@ -16,6 +16,8 @@ enum {
     EL_OPTION_ARENA,
     EL_OPTION_FRAMES,
     EL_OPTION_UV_ERROR,
+    EL_OPTION_PANEL,
+    EL_OPTION_ROTATION,
     EL_OPTION_OWN
 };
 
@@ -23,7 +25,8 @@ enum {
 #define EL_COMMON_OPTIONS                                                                                              \
     {"scene", required_argument, NULL, EL_OPTION_SCENE}, {"size", required_argument, NULL, EL_OPTION_SIZE},            \
         {"band", required_argument, NULL, EL_OPTION_BAND}, {"arena", required_argument, NULL, EL_OPTION_ARENA},        \
-        {"frames", required_argument, NULL, EL_OPTION_FRAMES},                                                         \
+        {"frames", required_argument, NULL, EL_OPTION_FRAMES}, {"panel", required_argument, NULL, EL_OPTION_PANEL},    \
+        {"rotation", required_argument, NULL, EL_OPTION_ROTATION},                                                     \
     {                                                                                                                  \
         "uv-error", required_argument, NULL, EL_OPTION_UV_ERROR                                                        \
     }
@@ -32,10 +35,12 @@ typedef struct el_common_options {
     el_subject_options subject;
     el_machine_config machine;
     long frames;
-    const char *band; /* as given; NULL: not */
+    const char *band;     /* as given; NULL: not */
+    const char *size;     /* the same */
+    const char *rotation; /* the same */
 } el_common_options;
 
-/* 320x240, bands of 8 lines, `frames` frames. */
+/* 320x240 or all of the panel, bands of 8 lines, `frames` frames. */
 el_common_options el_common_options_default(long frames);
 
 /* Takes the option `which`, below EL_OPTION_OWN. False after one line on stderr. */

@@ -83,6 +83,14 @@ bool el_output_open(el_output *output, const char *path)
     return true;
 }
 
+void el_output_pixels(el_output *output, const uint16_t *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t bytes[2] = {(uint8_t)values[i], (uint8_t)(values[i] >> 8)};
+        fwrite(bytes, 1, sizeof bytes, output->stream);
+    }
+}
+
 bool el_output_commit(el_output *output)
 {
     const bool failed = ferror(output->stream) != 0;

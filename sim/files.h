@@ -21,6 +21,8 @@ typedef struct el_output {
 
 /* False, after one line on stderr, when it cannot be written. A zeroed el_output is a closed one. */
 bool el_output_open(el_output *output, const char *path);
+/* Writes 16-bit values, little-endian whatever the host is. */
+void el_output_pixels(el_output *output, const uint16_t *values, size_t count);
 /* Moves the file to its place. False, after one line on stderr, when anything could not be written. */
 bool el_output_commit(el_output *output);
 /* Removes what was written. Does nothing to one that is not open. */

@@ -1,10 +1,13 @@
-/* The el_bus functions over the LCD model. Every path that sends bytes goes through pass_time and el_lcd_write, so the
- * traffic counters and the clock cannot disagree. */
+/* The el_bus functions over a display model. All bytes go through send_byte and all time through pass_time, so the
+ * traffic counters, the clock and the tap cannot disagree. */
 #include "lcd_bus.h"
 
 static void pass_time(el_lcd_bus *bus, uint64_t ns)
 {
     bus->traffic.now_ns += ns;
+    if (bus->config.tap.time != NULL) {
+        bus->config.tap.time(bus->config.tap.context, ns);
+    }
     el_lcd_advance_ns(bus->config.lcd, ns);
 }
 
@@ -16,16 +19,30 @@ static void pass_bytes(el_lcd_bus *bus, uint64_t bytes)
     pass_time(bus, scaled / bus->config.sck_hz);
 }
 
-static void send_words(el_lcd_bus *bus, size_t count)
+static void send_byte(el_lcd_bus *bus, int dc, uint8_t byte)
 {
+    if (bus->config.tap.byte != NULL) {
+        bus->config.tap.byte(bus->config.tap.context, dc, byte);
+    }
+    el_lcd_write(bus->config.lcd, dc, byte);
+}
+
+/* `count` words or bytes of the open transfer, the time that they take after them. */
+static void send_data(el_lcd_bus *bus, size_t count)
+{
+    const uint64_t bytes = bus->bytes != NULL ? count : 2 * (uint64_t)count;
     for (size_t i = 0; i < count; i++) {
-        const uint16_t word = *bus->words++;
-        el_lcd_write(bus->config.lcd, 1, (uint8_t)(word >> 8));
-        el_lcd_write(bus->config.lcd, 1, (uint8_t)(word & 0xFF));
+        if (bus->bytes != NULL) {
+            send_byte(bus, 1, *bus->bytes++);
+        } else {
+            const uint16_t word = *bus->words++;
+            send_byte(bus, 1, (uint8_t)(word >> 8));
+            send_byte(bus, 1, (uint8_t)(word & 0xFF));
+        }
     }
     bus->left -= count;
-    bus->traffic.pixel_bytes += 2 * (uint64_t)count;
-    pass_bytes(bus, 2 * (uint64_t)count);
+    bus->traffic.pixel_bytes += bytes;
+    pass_bytes(bus, bytes);
 }
 
 /* Cleared before the call, because `done` may start the next transfer. */
@@ -36,12 +53,12 @@ static void end_transfer(el_lcd_bus *bus)
     done(bus->argument);
 }
 
-static void drive(el_lcd_bus *bus, size_t words)
+static void drive(el_lcd_bus *bus, size_t count)
 {
     if (bus->done == NULL) {
         return;
     }
-    send_words(bus, words < bus->left ? words : bus->left);
+    send_data(bus, count < bus->left ? count : bus->left);
     if (bus->left == 0) {
         end_transfer(bus);
     }
@@ -58,23 +75,37 @@ static void bus_reset(void *context, int level)
 {
     el_lcd_bus *bus = context;
     el_lcd_bus_drain(bus);
+    if (bus->config.tap.reset != NULL) {
+        bus->config.tap.reset(bus->config.tap.context, level);
+    }
     el_lcd_reset(bus->config.lcd, level);
 }
 
-static void send_byte(el_lcd_bus *bus, int dc, uint8_t byte)
+static void send_command_byte(el_lcd_bus *bus, int dc, uint8_t byte)
 {
     bus->traffic.command_bytes++;
     pass_bytes(bus, 1);
-    el_lcd_write(bus->config.lcd, dc, byte);
+    send_byte(bus, dc, byte);
 }
 
 static void bus_command(void *context, uint8_t command, const uint8_t *parameters, size_t count)
 {
     el_lcd_bus *bus = context;
     el_lcd_bus_drain(bus);
-    send_byte(bus, 0, command);
+    send_command_byte(bus, 0, command);
     for (size_t i = 0; i < count; i++) {
-        send_byte(bus, 1, parameters[i]);
+        send_command_byte(bus, 1, parameters[i]);
+    }
+}
+
+static void begin_transfer(el_lcd_bus *bus, size_t count, void (*done)(void *argument), void *argument)
+{
+    bus->left = count;
+    bus->done = done;
+    bus->argument = argument;
+    bus->traffic.transfers++;
+    if (bus->config.chunk == 0) {
+        drive(bus, count);
     }
 }
 
@@ -83,13 +114,16 @@ static void bus_pixels(void *context, const uint16_t *words, size_t count, void 
     el_lcd_bus *bus = context;
     el_lcd_bus_drain(bus);
     bus->words = words;
-    bus->left = count;
-    bus->done = done;
-    bus->argument = argument;
-    bus->traffic.transfers++;
-    if (bus->config.chunk_words == 0) {
-        drive(bus, count);
-    }
+    bus->bytes = NULL;
+    begin_transfer(bus, count, done, argument);
+}
+
+static void bus_bytes(void *context, const uint8_t *bytes, size_t count, void (*done)(void *argument), void *argument)
+{
+    el_lcd_bus *bus = context;
+    el_lcd_bus_drain(bus);
+    bus->bytes = bytes;
+    begin_transfer(bus, count, done, argument);
 }
 
 static void bus_delay_ms(void *context, uint32_t ms)
@@ -102,7 +136,7 @@ static void bus_delay_ms(void *context, uint32_t ms)
 static void bus_wait(void *context)
 {
     el_lcd_bus *bus = context;
-    drive(bus, bus->config.chunk_words);
+    drive(bus, bus->config.chunk);
 }
 
 void el_lcd_bus_init(el_lcd_bus *bus, const el_lcd_bus_config *config)
@@ -115,7 +149,8 @@ el_bus el_lcd_bus_functions(el_lcd_bus *bus)
     return (el_bus){.context = bus,
                     .reset = bus_reset,
                     .command = bus_command,
-                    .pixels = bus_pixels,
+                    .pixels = bus->config.bytes_only ? NULL : bus_pixels,
+                    .bytes = bus_bytes,
                     .delay_ms = bus_delay_ms,
                     .wait = bus_wait};
 }

@@ -5,10 +5,7 @@
 
 #include "report.h"
 
-enum {
-    SCK_HZ = 62500000,
-    CHUNK_WORDS = 192 /* the simulated DMA sends that much while the renderer waits once; no divisor of a line */
-};
+enum { CHUNK = 192 }; /* the simulated DMA sends that much while the renderer waits once; no divisor of a line */
 
 const char *el_machine_message(el_status status)
 {
@@ -52,55 +49,32 @@ static void depth_end(void *context, const el_stats *stats)
     (void)stats;
 }
 
-/* The chip for the picture, and how it is mounted so that the picture is upright. */
-static el_lcd_profile choose_glass(const el_machine_config *config, el_rotation *rotation)
+/* The display that was asked for, or one for the frames, mounted so that they are upright. */
+static el_display_config choose_display(const el_machine_config *config)
 {
-    if (config->width <= EL_ILI9341_COLUMNS && config->height <= EL_ILI9341_ROWS) {
-        *rotation = EL_ROTATION_0;
-        return EL_LCD_ILI9341;
+    el_display_config display = {
+        .panel = config->panel,
+        .rotation = config->rotation,
+        .band_lines = config->band_lines,
+        .chunk = CHUNK,
+        .tap = config->tap,
+    };
+    if (config->panel == NULL) {
+        const el_lcd_profile *const usual = &EL_LCD_ILI9341;
+        const bool upright = config->width <= usual->columns && config->height <= usual->rows;
+        const bool lying = config->width <= usual->rows && config->height <= usual->columns;
+        display.panel = upright || lying ? usual->panel : NULL;
+        display.rotation = upright ? EL_ROTATION_0 : EL_ROTATION_90;
+        display.columns = config->height;
+        display.rows = config->width;
     }
-    *rotation = EL_ROTATION_90;
-    if (config->width <= EL_ILI9341_ROWS && config->height <= EL_ILI9341_COLUMNS) {
-        return EL_LCD_ILI9341;
-    }
-    return el_lcd_dcs(config->height, config->width);
+    return display;
 }
 
-bool el_machine_open(el_machine *machine, const el_machine_config *config)
+static bool open_renderer(el_machine *machine)
 {
-    *machine = (el_machine){.config = *config};
-    el_rotation rotation;
-    const el_lcd_profile glass = choose_glass(config, &rotation);
-    const bool upright = rotation == EL_ROTATION_0;
-    machine->mounting = upright ? 0 : 270;
-    machine->glass_width = upright ? glass.columns : glass.rows;
-    machine->glass_height = upright ? glass.rows : glass.columns;
-
-    const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
-    machine->arena_bytes = config->arena_bytes != 0
-                               ? config->arena_bytes
-                               : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
-                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS);
-    const size_t pixels = (size_t)config->width * config->height;
-    machine->arena = malloc(machine->arena_bytes);
-    machine->picture = calloc(pixels, sizeof machine->picture[0]);
-    machine->depth = calloc(pixels, sizeof machine->depth[0]);
-    machine->glass = calloc((size_t)machine->glass_width * machine->glass_height, sizeof machine->glass[0]);
-    machine->lcd = el_lcd_create(&glass);
-    if (machine->arena == NULL || machine->picture == NULL || machine->depth == NULL || machine->glass == NULL ||
-        machine->lcd == NULL) {
-        el_report("no memory for %u x %u pixels and an arena of %zu bytes", config->width, config->height,
-                  machine->arena_bytes);
-        return false;
-    }
-
-    el_lcd_bus_init(&machine->bus_state,
-                    &(el_lcd_bus_config){.lcd = machine->lcd, .sck_hz = SCK_HZ, .chunk_words = CHUNK_WORDS});
-    machine->bus = el_lcd_bus_functions(&machine->bus_state);
-    el_ili9341_init(&machine->panel, &(el_ili9341_config){.bus = &machine->bus, .rotation = rotation});
-    machine->panel_sink = el_ili9341_sink(&machine->panel);
+    const el_machine_config *const config = &machine->config;
     machine->depth_sink = (el_sink){.context = machine, .begin = depth_begin, .rows = depth_rows, .end = depth_end};
-
     const el_config renderer_config = {
         .width = config->width,
         .height = config->height,
@@ -109,10 +83,11 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
         .uv_error_log2 = config->uv_error_log2,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
-        .sinks = {&machine->panel_sink, &machine->depth_sink, config->extra_sink},
+        .sinks = {&machine->display.sink, &machine->depth_sink, config->extra_sink},
     };
     const el_status status = el_init(&machine->renderer, &renderer_config);
     if (status == EL_ERROR_MEMORY) {
+        const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
         el_report("an arena of %zu bytes is too small: %u x %u in bands of %u lines needs %u at least",
                   machine->arena_bytes, config->width, config->height, config->band_lines,
                   EL_MIN_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines));
@@ -122,30 +97,51 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
     return status == EL_OK;
 }
 
+bool el_machine_open(el_machine *machine, const el_machine_config *config)
+{
+    *machine = (el_machine){.config = *config};
+    const el_display_config display = choose_display(config);
+    if (!el_display_open(&machine->display, &display)) {
+        return false;
+    }
+    machine->picture_width = config->panel != NULL ? machine->display.width : config->width;
+    machine->picture_height = config->panel != NULL ? machine->display.height : config->height;
+
+    const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
+    machine->arena_bytes = config->arena_bytes != 0
+                               ? config->arena_bytes
+                               : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
+                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS);
+    machine->arena = malloc(machine->arena_bytes);
+    machine->glass = calloc((size_t)machine->display.width * machine->display.height, sizeof machine->glass[0]);
+    machine->picture = calloc((size_t)machine->picture_width * machine->picture_height, sizeof machine->picture[0]);
+    machine->depth = calloc((size_t)config->width * config->height, sizeof machine->depth[0]);
+    if (machine->arena == NULL || machine->glass == NULL || machine->picture == NULL || machine->depth == NULL) {
+        el_report("no memory for %u x %u pixels and an arena of %zu bytes", config->width, config->height,
+                  machine->arena_bytes);
+        return false;
+    }
+    return open_renderer(machine);
+}
+
 void el_machine_close(el_machine *machine)
 {
     free(machine->arena);
     free(machine->picture);
     free(machine->depth);
     free(machine->glass);
-    if (machine->lcd != NULL) {
-        el_lcd_destroy(machine->lcd);
-    }
+    el_display_close(&machine->display);
     *machine = (el_machine){0};
 }
 
 bool el_machine_look(el_machine *machine)
 {
-    el_lcd_bus_drain(&machine->bus_state);
-    const el_lcd_error *const error = el_lcd_error_at(machine->lcd, 0);
-    if (error != NULL) {
-        el_report("the LCD would not have taken this: %s", error->text);
+    if (!el_display_look(&machine->display, machine->glass)) {
         return false;
     }
-    (void)el_lcd_look(machine->lcd, machine->mounting, machine->glass);
-    for (size_t y = 0; y < machine->config.height; y++) {
-        memcpy(machine->picture + y * machine->config.width, machine->glass + y * machine->glass_width,
-               machine->config.width * sizeof machine->picture[0]);
+    for (size_t y = 0; y < machine->picture_height; y++) {
+        memcpy(machine->picture + y * machine->picture_width, machine->glass + y * machine->display.width,
+               machine->picture_width * sizeof machine->picture[0]);
     }
     return true;
 }

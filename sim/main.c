@@ -1,8 +1,10 @@
 /* edgeline-sim: the renderer on a PC. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "commands.h"
+#include "lcd/lcd.h"
 #include "report.h"
 
 static const struct {
@@ -13,13 +15,16 @@ static const struct {
     {"list", el_command_list, ""},
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm] [--size WxH] [--band N] [--arena BYTES]\n"
-     "               [--uv-error 2|4|8|16|32] [--frames N] [--png FILE] [--raw FILE] [--depth FILE]\n"
-     "               [--crc] [--stats]\n"
+     "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N]\n"
+     "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats]\n"
+     "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
      "               [--shading flat|gouraud|textured]"},
     {"stream", el_command_stream,
      "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N]\n"
+     "               [--panel NAME [--rotation DEGREES]]\n"
      "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE]"},
+    {"look", el_command_look, "--panel NAME [--rotation DEGREES] TRACE [--png FILE] [--raw FILE]"},
     {"memory", el_command_memory, "[--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]"},
     {"coverage", el_command_coverage, "IN OUT"},
     {"attributes", el_command_attributes, "IN OUT"},
@@ -28,12 +33,36 @@ static const struct {
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-static void usage(FILE *stream)
+static void print_usage(void)
 {
-    fputs("usage: edgeline-sim COMMAND ...\n\n", stream);
+    puts("usage: edgeline-sim COMMAND ...\n"
+         "       edgeline-sim COMMAND --help\n"
+         "       edgeline-sim --version\n");
     for (int i = 0; i < COMMANDS; i++) {
-        fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].arguments);
+        printf("  %-10s %s\n", commands[i].name, commands[i].arguments);
     }
+    fputs("\npanels:", stdout);
+    const el_lcd_profile *panel;
+    for (size_t i = 0; (panel = el_lcd_profile_at(i)) != NULL; i++) {
+        printf(" %s", panel->panel);
+    }
+    putchar('\n');
+}
+
+static bool asks_for_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+static int run(int index, int argc, char **argv)
+{
+    for (int i = 0; i < argc; i++) {
+        if (asks_for_help(argv[i])) {
+            printf("usage: edgeline-sim %s %s\n", commands[index].name, commands[index].arguments);
+            return EL_EXIT_OK;
+        }
+    }
+    return commands[index].run(argc, argv);
 }
 
 int main(int argc, char **argv)
@@ -41,13 +70,17 @@ int main(int argc, char **argv)
     if (argc < 2) {
         return el_report("no command; `edgeline-sim --help` lists them");
     }
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
-        usage(stdout);
+    if (asks_for_help(argv[1])) {
+        print_usage();
+        return EL_EXIT_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        puts("edgeline-sim " EDGELINE_VERSION);
         return EL_EXIT_OK;
     }
     for (int i = 0; i < COMMANDS; i++) {
         if (strcmp(argv[1], commands[i].name) == 0) {
-            return commands[i].run(argc - 2, argv + 2);
+            return run(i, argc - 2, argv + 2);
         }
     }
     return el_report("unknown command '%s'; `edgeline-sim --help` lists them", argv[1]);

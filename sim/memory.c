@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "edgeline.h"
 #include "options.h"
-#include "panel/ili9341.h"
+#include "panel/tft.h"
 #include "report.h"
 
 typedef struct memory_options {
@@ -80,7 +80,7 @@ int el_command_memory(int argc, char **argv)
     const size_t draws = (size_t)o.draws;
     const size_t depth = EL_DEPTH_BAND_BYTES(width, band);
     const size_t vertex_bytes = EL_ROUND_UP_8(vertices * EL_VERTEX_BYTES);
-    const size_t fixed = sizeof(el_renderer) + sizeof(el_ili9341);
+    const size_t fixed = sizeof(el_renderer) + sizeof(el_tft);
     const size_t arena = EL_MEMORY_BYTES(width, height, band, vertices, triangles, draws);
 
     printf("%zu x %zu, bands of %zu lines, %zu vertices in the largest mesh, %zu visible triangles, %zu draws\n", width,
@@ -92,7 +92,7 @@ int el_command_memory(int argc, char **argv)
     row("triangles, textured", triangles * EL_TEXTURED_TRIANGLE_BYTES);
     row("draws, and slack", draws * EL_RUN_BYTES + EL_MIN_LIST_BYTES / 2 + 16);
     row("arena (EL_MEMORY_BYTES)", arena);
-    row("el_renderer and el_ili9341, this machine's", fixed);
+    row("el_renderer and el_tft, this machine's", fixed);
     row("stack", STACK_BYTES);
     row("in all", arena + fixed + STACK_BYTES);
     row("in all, when no triangle is textured",

@@ -76,3 +76,19 @@ bool el_option_band(const char *text, uint16_t height, uint16_t *lines)
     *lines = (uint16_t)value;
     return true;
 }
+
+bool el_option_rotation(const char *option, const char *text, el_rotation *rotation)
+{
+    static const struct {
+        const char *text;
+        el_rotation rotation;
+    } angles[] = {{"0", EL_ROTATION_0}, {"90", EL_ROTATION_90}, {"180", EL_ROTATION_180}, {"270", EL_ROTATION_270}};
+    for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
+        if (strcmp(text, angles[i].text) == 0) {
+            *rotation = angles[i].rotation;
+            return true;
+        }
+    }
+    el_report("%s takes 0, 90, 180 or 270 degrees, not '%s'", option, text);
+    return false;
+}

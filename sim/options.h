@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "panel/panel.h"
+
 bool el_option_integer(const char *option, const char *text, long least, long most, long *value);
 bool el_option_number(const char *option, const char *text, double least, double most, double *value);
 /* "X,Y,Z", each within +-limit. */
@@ -14,5 +16,8 @@ bool el_option_vector(const char *option, const char *text, double limit, double
 bool el_option_size(const char *option, const char *text, uint16_t *width, uint16_t *height);
 /* Lines of a band, 1 to `height`; without a text (NULL) 8, or `height` where that is less. */
 bool el_option_band(const char *text, uint16_t height, uint16_t *lines);
+
+/* 0, 90, 180 or 270. */
+bool el_option_rotation(const char *option, const char *text, el_rotation *rotation);
 
 #endif

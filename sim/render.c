@@ -6,14 +6,16 @@
 #include "commands.h"
 #include "common_options.h"
 #include "files.h"
+#include "frame_name.h"
 #include "machine.h"
 #include "png_file.h"
 #include "report.h"
 #include "subject.h"
+#include "wire_trace.h"
 
 typedef struct render_options {
     el_common_options common;
-    const char *png, *raw, *depth;
+    const char *png, *raw, *depth, *wire;
     bool crc, stats;
 } render_options;
 
@@ -26,6 +28,7 @@ static const char **text_of(render_options *o, int which)
         &o->png,
         &o->raw,
         &o->depth,
+        &o->wire,
         &o->common.subject.eye,
         &o->common.subject.look_at,
         &o->common.subject.fov,
@@ -40,13 +43,14 @@ static const char **text_of(render_options *o, int which)
 static bool parse(int argc, char **argv, render_options *o)
 {
     /* In the order of text_of. */
-    enum { MESH = EL_OPTION_OWN, PNG_FILE, RAW, DEPTH, EYE, LOOK_AT, FOV, NEAR, FAR, SHADING, CRC, STATS };
+    enum { MESH = EL_OPTION_OWN, PNG_FILE, RAW, DEPTH, WIRE, EYE, LOOK_AT, FOV, NEAR, FAR, SHADING, CRC, STATS };
     static const struct option options[] = {
         EL_COMMON_OPTIONS,
         {"mesh", required_argument, NULL, MESH},
         {"png", required_argument, NULL, PNG_FILE},
         {"raw", required_argument, NULL, RAW},
         {"depth", required_argument, NULL, DEPTH},
+        {"wire", required_argument, NULL, WIRE},
         {"eye", required_argument, NULL, EYE},
         {"look-at", required_argument, NULL, LOOK_AT},
         {"fov", required_argument, NULL, FOV},
@@ -81,7 +85,9 @@ static bool parse(int argc, char **argv, render_options *o)
         el_report("render: '%s' is no option", argv[optind]);
         return false;
     }
-    return el_common_options_check(&o->common);
+    char name[EL_FRAME_NAME_MAX];
+    return el_common_options_check(&o->common) &&
+           (o->png == NULL || !el_frame_name_is_pattern(o->png) || el_frame_name(o->png, 0, name));
 }
 
 static const char *const stat_names[] = {
@@ -117,15 +123,6 @@ static void print_stats(uint32_t frame, const el_stats *stats)
     puts("}");
 }
 
-/* Little-endian whatever the host is. */
-static void write_u16(FILE *stream, const uint16_t *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        const uint8_t bytes[2] = {(uint8_t)values[i], (uint8_t)(values[i] >> 8)};
-        fwrite(bytes, 1, sizeof bytes, stream);
-    }
-}
-
 static uint32_t crc_of(const uint16_t *values, size_t count)
 {
     uint32_t crc = 0;
@@ -137,45 +134,71 @@ static uint32_t crc_of(const uint16_t *values, size_t count)
 }
 
 typedef struct outputs {
-    el_output png, raw, depth;
+    el_output png; /* not open where each frame has a file of its own */
+    el_output raw, depth, wire;
+    el_wire_writer writer;
 } outputs;
 
 static bool open_outputs(outputs *out, const render_options *o)
 {
-    return (o->png == NULL || el_output_open(&out->png, o->png)) &&
+    return (o->png == NULL || el_frame_name_is_pattern(o->png) || el_output_open(&out->png, o->png)) &&
            (o->raw == NULL || el_output_open(&out->raw, o->raw)) &&
-           (o->depth == NULL || el_output_open(&out->depth, o->depth));
+           (o->depth == NULL || el_output_open(&out->depth, o->depth)) &&
+           (o->wire == NULL || el_output_open(&out->wire, o->wire));
+}
+
+static bool write_png(el_output *output, const el_machine *machine)
+{
+    if (!el_png_write(output->stream, machine->picture, machine->picture_width, machine->picture_height)) {
+        el_report("cannot write %s", output->path);
+        return false;
+    }
+    return true;
+}
+
+static bool write_numbered_png(const char *pattern, uint32_t frame, const el_machine *machine)
+{
+    char name[EL_FRAME_NAME_MAX];
+    el_output output = {0};
+    const bool good = el_frame_name(pattern, frame, name) && el_output_open(&output, name) &&
+                      write_png(&output, machine) && el_output_commit(&output);
+    el_output_discard(&output);
+    return good;
+}
+
+static bool write_frame(const render_options *o, uint32_t frame, el_machine *machine, outputs *out)
+{
+    const size_t pixels = (size_t)machine->picture_width * machine->picture_height;
+    if (out->raw.stream != NULL) {
+        el_output_pixels(&out->raw, machine->picture, pixels);
+    }
+    if (out->depth.stream != NULL) {
+        el_output_pixels(&out->depth, machine->depth, (size_t)machine->config.width * machine->config.height);
+    }
+    if (o->crc) {
+        printf("%08x\n", crc_of(machine->picture, pixels));
+    }
+    if (o->stats) {
+        print_stats(frame, el_frame_stats(&machine->renderer));
+    }
+    const bool is_last = frame + 1 == (uint32_t)o->common.frames;
+    if (out->png.stream != NULL) {
+        return !is_last || write_png(&out->png, machine);
+    }
+    return o->png == NULL || write_numbered_png(o->png, frame, machine);
 }
 
 static bool render_frames(const render_options *o, const el_subject *subject, el_machine *machine, outputs *out)
 {
-    const size_t pixels = (size_t)o->common.machine.width * o->common.machine.height;
     for (uint32_t frame = 0; frame < (uint32_t)o->common.frames; frame++) {
         const el_status status = el_subject_play(subject, frame, &machine->renderer);
         if (status != EL_OK) {
             el_report("frame %u: %s", frame, el_machine_message(status));
             return false;
         }
-        if (!el_machine_look(machine)) {
+        if (!el_machine_look(machine) || !write_frame(o, frame, machine, out)) {
             return false;
         }
-        if (out->raw.stream != NULL) {
-            write_u16(out->raw.stream, machine->picture, pixels);
-        }
-        if (out->depth.stream != NULL) {
-            write_u16(out->depth.stream, machine->depth, pixels);
-        }
-        if (o->crc) {
-            printf("%08x\n", crc_of(machine->picture, pixels));
-        }
-        if (o->stats) {
-            print_stats(frame, el_frame_stats(&machine->renderer));
-        }
-    }
-    if (out->png.stream != NULL &&
-        !el_png_write(out->png.stream, machine->picture, o->common.machine.width, o->common.machine.height)) {
-        el_report("cannot write %s", o->png);
-        return false;
     }
     return true;
 }
@@ -195,18 +218,23 @@ int el_command_render(int argc, char **argv)
     el_subject subject = {0};
     el_machine machine = {0};
     outputs out = {0};
-    bool good = el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common));
+    bool good =
+        el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common)) && open_outputs(&out, &o);
     if (good) {
         o.common.machine.background = el_subject_background(&subject);
-        good = el_machine_open(&machine, &o.common.machine) && open_outputs(&out, &o) &&
-               render_frames(&o, &subject, &machine, &out);
+        if (out.wire.stream != NULL) {
+            el_wire_begin(&out.writer, out.wire.stream);
+            o.common.machine.tap = el_wire_tap(&out.writer);
+        }
+        good = el_machine_open(&machine, &o.common.machine) && render_frames(&o, &subject, &machine, &out);
     }
     if (good) {
-        good = commit(&out.png) && commit(&out.raw) && commit(&out.depth);
+        good = commit(&out.png) && commit(&out.raw) && commit(&out.depth) && commit(&out.wire);
     }
     el_output_discard(&out.png);
     el_output_discard(&out.raw);
     el_output_discard(&out.depth);
+    el_output_discard(&out.wire);
     el_machine_close(&machine);
     el_subject_close(&subject);
     return good ? EL_EXIT_OK : EL_EXIT_BAD;

@@ -8,6 +8,7 @@
 #include "common_options.h"
 #include "machine.h"
 #include "options.h"
+#include "player.h"
 #include "port_posix.h"
 #include "report.h"
 #include "stream/sink.h"
@@ -115,10 +116,10 @@ static void wait_for_host(el_stream *stream, const el_port *link)
     }
 }
 
-/* Renders when the host has credit for a frame, so that none is drawn for nobody and frame n of the stream is frame n of
- * the scene. */
-static bool play(const stream_options *o, const el_subject *subject, el_machine *machine, el_stream *stream,
-                 const el_port *link)
+/* Renders when the host has credit for a frame, so that none is drawn for nobody and, unless the host chooses, frame n of
+ * the stream is frame n of the scene. A mesh has no other scene to choose. */
+static bool play(const stream_options *o, const el_subject *subject, el_player *player, el_machine *machine,
+                 el_stream *stream, const el_port *link)
 {
     uint32_t frame = 0;
     while (!stopped && (o->common.frames == 0 || frame < (uint32_t)o->common.frames)) {
@@ -129,7 +130,8 @@ static bool play(const stream_options *o, const el_subject *subject, el_machine 
             link->wait(link->context);
             continue;
         }
-        const el_status status = el_subject_play(subject, frame, &machine->renderer);
+        const el_status status = player->scene != NULL ? el_player_play(player, &machine->renderer)
+                                                       : el_subject_play(subject, frame, &machine->renderer);
         if (status != EL_OK) {
             el_report("frame %u: %s", frame, el_machine_message(status));
             return false;
@@ -147,14 +149,17 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
 
     const size_t memory_bytes = EL_STREAM_MEMORY_BYTES(o->common.machine.width, o->common.machine.height);
     uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT)];
+    el_player player = {.scene = subject->scene};
     const el_stream_config config = {
         .port = &link,
         .width = o->common.machine.width,
         .height = o->common.machine.height,
         .target = "simulator",
-        .firmware = "edgeline 0.1.0",
+        .firmware = "edgeline " EDGELINE_VERSION,
         .boot_id = (uint32_t)time(NULL) * 2654435761U ^ (uint32_t)getpid(),
         .one_way = o->link == LINK_STDOUT,
+        .input = subject->scene != NULL ? el_player_input : NULL,
+        .input_context = &player,
         .memory = memory,
         .memory_bytes = memory_bytes,
     };
@@ -168,7 +173,7 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
     machine_config.background = el_subject_background(subject);
     machine_config.extra_sink = &sink;
     el_machine machine = {0};
-    const bool good = el_machine_open(&machine, &machine_config) && play(o, subject, &machine, &stream, &link);
+    const bool good = el_machine_open(&machine, &machine_config) && play(o, subject, &player, &machine, &stream, &link);
     el_machine_close(&machine);
     return good;
 }

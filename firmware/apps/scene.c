@@ -2,19 +2,6 @@
 
 #include <string.h>
 
-#include "bench/bench_scenes.h"
-#include "demo/demo_scenes.h"
-
-size_t el_scene_count(void)
-{
-    return el_demo_scene_count + el_bench_scene_count;
-}
-
-const el_scene *el_scene_at(size_t index)
-{
-    return index < el_demo_scene_count ? &el_demo_scenes[index] : &el_bench_scenes[index - el_demo_scene_count];
-}
-
 const el_scene *el_scene_find(const char *name)
 {
     for (size_t i = 0; i < el_scene_count(); i++) {

@@ -16,7 +16,7 @@ typedef struct el_scene {
     el_status (*draw)(uint32_t frame, el_renderer *renderer);
 } el_scene;
 
-/* All scenes: the demo's, then the benchmark's. */
+/* The scenes of this program: the demo's, then the benchmark's (scene_list.c), unless it links a list of its own. */
 size_t el_scene_count(void);
 const el_scene *el_scene_at(size_t index);
 

@@ -21,7 +21,7 @@ from edgeline import bench_plot, discovery
 from edgeline.convert.command import add_parser as add_convert_parser
 from edgeline.errors import EdgelineError, StreamEndError
 from edgeline.link import FRAME_TIMEOUT_S, HELLO_TIMEOUT_S, Link
-from edgeline.protocol import Capability, Hello
+from edgeline.protocol import Capability, Control, Hello
 from edgeline.recorder import check_writable, recorder, save_png
 from edgeline.session import Session
 from edgeline.summary import Summary
@@ -74,11 +74,13 @@ def _parser() -> argparse.ArgumentParser:
     command = commands.add_parser("view", help="a window with the picture, the rates and the renderer's work")
     _add_link(command, None, "")
     _add_fps(command)
+    _add_controls(command)
     command.add_argument("--frames", type=_positive, metavar="N", help="close after N verified frames")
     command.set_defaults(func=_view)
 
     command = commands.add_parser("shot", help="one verified frame as PNG", epilog=EXIT_CODES)
     _add_link(command, FRAME_TIMEOUT_S, "give up after S seconds without a verified frame")
+    _add_controls(command)
     _add_json(command)
     command.add_argument("-o", "--output", default="shot.png", metavar="FILE", help="default: shot.png")
     command.set_defaults(func=_shot)
@@ -86,6 +88,7 @@ def _parser() -> argparse.ArgumentParser:
     command = commands.add_parser("record", help="verified frames as GIF, animated PNG or PNGs", epilog=EXIT_CODES)
     _add_link(command, FRAME_TIMEOUT_S, "give up after S seconds without a verified frame")
     _add_fps(command)
+    _add_controls(command)
     _add_json(command)
     command.add_argument(
         "-o",
@@ -122,6 +125,12 @@ def _add_fps(command: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_controls(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--scene", type=_count, metavar="N", help="have the device show its scene number N, from 0")
+    command.add_argument("--frame", type=_count, metavar="N", help="have it begin at the scene's frame N")
+    command.add_argument("--pause", action="store_true", help="have it stay at that frame")
+
+
 def _add_link(command: argparse.ArgumentParser, timeout_s: float | None, timeout_help: str) -> None:
     command.add_argument(
         "-p",
@@ -143,6 +152,12 @@ def _positive(text: str) -> int:
     return int(text)
 
 
+def _count(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or int(text) > 0x7FFFFFFF:
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 0 to 2147483647")
+    return int(text)
+
+
 def _frame_rate(text: str) -> int:
     if not text.isascii() or not text.isdigit() or int(text) > 65535:
         raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 0 to 65535")
@@ -159,8 +174,18 @@ def _seconds(text: str) -> float:
     return value
 
 
+def _session(options: argparse.Namespace, fps: int = 0) -> Session:
+    """A session that sets the controls of the command line."""
+    session = Session(fps=fps)
+    wishes = ((Control.SCENE, options.scene), (Control.FRAME, options.frame), (Control.PAUSE, options.pause or None))
+    for control, value in wishes:
+        if value is not None:
+            session.input(control, int(value))
+    return session
+
+
 def _open(options: argparse.Namespace, session: Session) -> Link:
-    return Link(connect(options.port or discovery.find(options.baud), options.baud), session)
+    return Link(connect(options.port or discovery.find(options.baud), options.baud), session, _device_says)
 
 
 def _list(options: argparse.Namespace) -> int:
@@ -212,6 +237,7 @@ def _capability_names(hello: Hello) -> list[str]:
         Capability.RUNS: "run-length bands",
         Capability.SPLIT: "split-stream bands",
         Capability.SKIPS_LINES: "leaves out unchanged lines",
+        Capability.INPUT: "takes input",
     }
     return [name for bit, name in names.items() if bit in hello.capabilities]
 
@@ -228,7 +254,7 @@ def _view(options: argparse.Namespace) -> int:
             f"the viewer needs tkinter, which this Python lacks ({error}): install python3-tk"
         ) from None
     port = options.port or discovery.find(options.baud)
-    viewer.run(connect(port, options.baud), options.baud, options.fps, options.frames)
+    viewer.run(connect(port, options.baud), options.baud, lambda: _session(options, options.fps), options.frames)
     return 0
 
 
@@ -236,7 +262,7 @@ def _shot(options: argparse.Namespace) -> int:
     check_writable(options.output)
     if not options.output.lower().endswith(".png"):
         raise EdgelineError(f"{options.output}: a shot is a PNG file; name it so")
-    with _open(options, Session()) as link:
+    with _open(options, _session(options)) as link:
         frame = link.next_frame(options.timeout)
         save_png(options.output, frame.picture)
         summary = Summary(link.hello)
@@ -252,7 +278,7 @@ def _record(options: argparse.Namespace) -> int:
     writer = recorder(options.output)
     failure: EdgelineError | None = None
     try:
-        with _open(options, Session(fps=options.fps)) as link:
+        with _open(options, _session(options, options.fps)) as link:
             summary = Summary(link.wait_hello(min(options.timeout, HELLO_TIMEOUT_S)))
             while options.frames is None or summary.frames < options.frames:
                 try:
@@ -285,6 +311,12 @@ def _bench(options: argparse.Namespace) -> int:
     bench_plot.draw(bench_plot.load(options.plot), options.output)
     print(options.output)
     return 0
+
+
+def _device_says(text: str) -> None:
+    _progress("")
+    for line in text.splitlines():
+        print(f"device: {''.join(c if c.isprintable() else ' ' for c in line)}", file=sys.stderr)
 
 
 def _progress(text: str) -> None:

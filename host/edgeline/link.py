@@ -8,12 +8,12 @@ from __future__ import annotations
 import contextlib
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import TracebackType
 
 from edgeline.errors import DeviceError, EdgelineError, StreamEndError, StreamError
-from edgeline.protocol import Hello
-from edgeline.session import Event, Frame, Refused, Session
+from edgeline.protocol import Control, Hello
+from edgeline.session import Event, Frame, Log, Refused, Session
 from edgeline.transport import Transport
 
 HELLO_TIMEOUT_S = 5.0
@@ -24,11 +24,17 @@ FRAME_TIMEOUT_S = 30.0
 
 
 class Link:
-    """Owns `transport` and closes it. An iterator over verified frames, without an end."""
+    """Owns `transport` and closes it. An iterator over verified frames, without an end.
 
-    def __init__(self, transport: Transport, session: Session | None = None) -> None:
+    `on_log` gets the device's text, fault reports included, while frames or a HELLO are waited for.
+    """
+
+    def __init__(
+        self, transport: Transport, session: Session | None = None, on_log: Callable[[str], None] | None = None
+    ) -> None:
         self.transport = transport
         self.session = session or Session()
+        self.on_log = on_log
         self.timeout_s = FRAME_TIMEOUT_S
         self._frames: deque[Frame] = deque()
 
@@ -97,6 +103,22 @@ class Link:
                 raise DeviceError(f"{self.transport.name}: {event.error}")
             if isinstance(event, Frame):
                 self._frames.append(event)
+            if isinstance(event, Log) and self.on_log is not None:
+                self.on_log(event.text)
+
+    def control(self, control: str | int, value: int) -> None:
+        """Sets "scene" (its index), "frame" (the scene's next one), "pause" (1 or 0), or one of the program's own
+        controls, 128..255.
+
+        Called before the first frame is asked for, that one shows it; later, one of the next three frames is the first.
+        Raises EdgelineError on an unknown name, DeviceError if the device takes no INPUT.
+        """
+        if isinstance(control, str):
+            if control.upper() not in Control.__members__:
+                raise EdgelineError(f"no control '{control}': scene, frame and pause have names, others have numbers")
+            control = Control[control.upper()]
+        self.session.input(control, value)
+        self._flush()
 
     def close(self) -> None:
         """Tells the device to stop, as far as the link still holds, and closes the port."""

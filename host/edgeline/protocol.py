@@ -1,4 +1,4 @@
-"""The bodies of the packets, both ways: one dataclass per packet of WIRE.md, version 1.0.
+"""The bodies of the packets, both ways: one dataclass per packet of WIRE.md, version 1.1.
 
 `decode` checks every rule that a body can break by itself and raises WireError; what depends on the session (the order
 of bands, digests, credits) is checked in `session`. All numbers are little-endian.
@@ -52,20 +52,33 @@ class PacketType(IntEnum):
     PING = 0x07
     STOP = 0x08
     LOG = 0x09
+    INPUT = 0x0A
 
 
 class Capability(IntFlag):
-    """Bits 0..2 of HELLO's capabilities and of START's codecs; bit 8 is HELLO's alone."""
+    """Bits 0..2 of HELLO's capabilities and of START's codecs; those from bit 8 on are HELLO's alone."""
 
     RAW = 1
     RUNS = 2
     SPLIT = 4
     SKIPS_LINES = 256
+    INPUT = 512
 
 
 class Codec(IntEnum):
     RAW = 0
     RUNS = 1
+
+
+class Control(IntEnum):
+    """What INPUT sets; 128..255 are a program's own."""
+
+    SCENE = 1
+    """index into the device's scenes; the scene begins at its frame 0"""
+    FRAME = 2
+    """number of the scene's next frame"""
+    PAUSE = 3
+    """1: the scene stays at its frame; 0: it goes on"""
 
 
 DECODABLE = Capability.RAW | Capability.RUNS
@@ -128,7 +141,7 @@ class Hello:
             raise DeviceError(f"{target} sends pixel format {pixels}, this host knows RGB565 alone: update the host")
         if not capabilities & DECODABLE:
             raise DeviceError(f"{target} offers neither raw nor run-length bands: update the host")
-        known = Capability(capabilities & (DECODABLE | Capability.SPLIT | Capability.SKIPS_LINES))
+        known = Capability(capabilities & (DECODABLE | Capability.SPLIT | Capability.SKIPS_LINES | Capability.INPUT))
         return cls(width, height, known, boot_id, target, firmware, minor, segment, largest, baud)
 
 
@@ -294,6 +307,25 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class Input:
+    """Sets `control`, 0..255, to `value`, -2^31 .. 2^31 - 1. Only for a device with Capability.INPUT."""
+
+    TYPE: ClassVar = PacketType.INPUT
+    _LAYOUT: ClassVar = struct.Struct("<Bi")
+
+    control: int
+    value: int
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.control, self.value)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Input:
+        _need(body, cls._LAYOUT.size, "INPUT")
+        return cls(*cls._LAYOUT.unpack_from(body))
+
+
+@dataclass(frozen=True)
 class Log:
     """A line for the user's log."""
 
@@ -309,9 +341,11 @@ class Log:
         return cls(_utf8(body, "LOG"))
 
 
-Body = Hello | Start | Band | FrameEnd | Ack | Key | Ping | Stop | Log
+Body = Hello | Start | Band | FrameEnd | Ack | Key | Ping | Stop | Input | Log
 
-_BODIES: dict[int, type[Body]] = {body.TYPE: body for body in (Hello, Start, Band, FrameEnd, Ack, Key, Ping, Stop, Log)}
+_BODIES: dict[int, type[Body]] = {
+    body.TYPE: body for body in (Hello, Start, Band, FrameEnd, Ack, Key, Ping, Stop, Input, Log)
+}
 
 
 def pack(body: Body, seq: int) -> Packet:

@@ -6,6 +6,8 @@ No I/O, and the time is an argument, so that tests drive it to the microsecond. 
   so does silence, because then the credits may be lost with a FRAME_END that never arrived.
 * A frame leaves as an event only if all of its bands arrived and its digest is that of the session's own picture.
 * After damage, a gap in seq or a wrong digest: KEY for all lines, once for as many frames as may be on their way.
+* INPUT that was given before the HELLO goes out ahead of START, so that the first frame shows it; to a device that has
+  been started anew all controls are told again.
 * ACK for every FRAME_END, good or not. The credit has to go back either way, or two damaged frames would end it all.
 """
 
@@ -19,7 +21,7 @@ import numpy as np
 
 from edgeline import codec, framing, protocol
 from edgeline.codec import PIXEL, Pixels
-from edgeline.errors import DeviceError, WireError
+from edgeline.errors import DeviceError, EdgelineError, WireError
 from edgeline.protocol import Hello
 
 CREDITS = 2
@@ -132,6 +134,7 @@ class Session:
     def __post_init__(self) -> None:
         self._splitter = framing.Splitter()
         self._outgoing = bytearray()
+        self._inputs: dict[int, int] = {}
         self._seq_out = 0
         self._seq_in: int | None = None
         self._last_ping: float | None = None
@@ -178,6 +181,21 @@ class Session:
         if self.state is State.STREAMING:
             self._send(protocol.Stop())
             self.state = State.READY
+
+    def input(self, control: int, value: int) -> None:
+        """Sets one of the device's controls (protocol.Control, or 128..255: the program's own) to `value`, -2^31 ..
+        2^31 - 1; before the HELLO, as soon as it is there.
+
+        Raises EdgelineError on numbers that do not fit, DeviceError if the device takes no INPUT. If that is found out
+        later, it is Refused.
+        """
+        if not (0 <= control <= 255 and -(2**31) <= value < 2**31):
+            raise EdgelineError(f"control {control} = {value}: a control is 0..255, its value a signed 32-bit number")
+        if self.hello is not None:
+            _need_input(self.hello)
+            self._send(protocol.Input(control, value))
+        self._inputs.pop(control, None)  # the order counts: SCENE sets the frame, too
+        self._inputs[control] = value
 
     def bytes_to_send(self) -> bytes:
         """What has to go to the device now; each byte is given once."""
@@ -227,6 +245,14 @@ class Session:
             return []
         if self.state is State.READY and not restarted:
             return []
+        if self._inputs and (known is None or restarted):
+            try:
+                _need_input(hello)
+            except DeviceError as error:
+                self.state = State.REFUSED
+                return [Refused(error)]
+            for control, value in self._inputs.items():
+                self._send(protocol.Input(control, value))
         self.state = State.READY
         if self.autostart:
             self._start(hello, now)
@@ -302,3 +328,8 @@ class Session:
             self.counts.keys_sent += 1
             self._send(protocol.Key(0, self.hello.height))
         return [Damage(reason)]
+
+
+def _need_input(hello: Hello) -> None:
+    if not hello.capabilities & protocol.Capability.INPUT:
+        raise DeviceError(f"{hello.target}, {hello.firmware}: takes no INPUT, so its scene cannot be chosen")

@@ -10,6 +10,7 @@ import signal
 import threading
 import time
 import tkinter as tk
+from collections.abc import Callable
 from pathlib import Path
 from tkinter import font as tkfont
 
@@ -45,7 +46,9 @@ _MOODS = {Mood.GOOD: "#5fd38d", Mood.BUSY: "#f2c14e", Mood.BAD: "#f2665e"}
 class Reader(threading.Thread):
     """Runs the link until `stop`; opens it again when it is lost, on another port too if the device moved there."""
 
-    def __init__(self, model: ViewModel, transport: Transport, baud: int, fps: int) -> None:
+    def __init__(
+        self, model: ViewModel, transport: Transport, baud: int, new_session: Callable[[], Session] = Session
+    ) -> None:
         super().__init__(name="edgeline-link", daemon=True)
         self._model = model
         self._transport: Transport | None = transport
@@ -54,7 +57,7 @@ class Reader(threading.Thread):
             discovery.PortInfo(transport.name, "", None),
         )
         self._baud = baud
-        self._fps = fps
+        self._new_session = new_session
         self._stopping = threading.Event()
 
     def run(self) -> None:
@@ -62,7 +65,7 @@ class Reader(threading.Thread):
             if self._transport is None:
                 self._transport = self._reopen()
                 continue
-            with Link(self._transport, Session(fps=self._fps)) as link:
+            with Link(self._transport, self._new_session()) as link:
                 try:
                     while not self._stopping.is_set():
                         self._model.take(link.step(), link.session.counts, time.monotonic())
@@ -273,8 +276,10 @@ class Window:
             self._model.notify(str(error), time.monotonic())
 
 
-def run(transport: Transport, baud: int, fps: int, frames: int | None) -> None:
+def run(transport: Transport, baud: int, new_session: Callable[[], Session], frames: int | None) -> None:
     """Shows what comes over `transport` until the window is closed, or `frames` frames have been verified.
+
+    `new_session` is asked for another one each time that the link was lost.
 
     Raises EdgelineError if there is no display.
     """
@@ -284,7 +289,7 @@ def run(transport: Transport, baud: int, fps: int, frames: int | None) -> None:
         transport.close()
         raise EdgelineError("no display to open a window on: use `edgeline shot` or `edgeline record`") from None
     model = ViewModel(transport.name)
-    reader = Reader(model, transport, baud, fps)
+    reader = Reader(model, transport, baud, new_session)
     Window(root, model, frames)
     for number in (signal.SIGINT, signal.SIGTERM):
         # As an exception it would arrive in a callback, where tkinter prints it and goes on.

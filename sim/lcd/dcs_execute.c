@@ -1,146 +1,150 @@
-/* What the commands do: registers, waiting times, the address counter.
+/* What MIPI DCS commands do: registers, waiting times, the address counter.
  *
- * One switch, with a case for each command that can change the picture or must be waited for. All sections are of the
- * ILI9341 data sheet V1.11. */
-#include "dcs_state.h"
+ * One switch, with a case for each command that can change the picture or must be waited for and that all of these chips
+ * have; what only one chip has is in its own file. Sections are of the ILI9341 data sheet V1.11 where no other is named;
+ * those of the other chips say the same. */
+#include "lcd_state.h"
 
-#define MS_NS UINT64_C(1000000)
-static const uint64_t SETTLE_NS = 5 * MS_NS;         /* sections 8.2.2, 8.2.11, 8.2.12, 15.4: before the next command */
-static const uint64_t SLEEP_CHANGE_NS = 120 * MS_NS; /* the same: before the next change between sleep and awake */
-
-/* Defaults after power-on and reset. */
-enum {
-    DEFAULT_DISCTRL = EL_DISCTRL_REV | 0x02, /* section 8.3.7: 82h */
-    DEFAULT_PIXEL_BYTES = 3,                 /* section 8.2.33: 18 bits per pixel */
-};
+enum { DEFAULT_PIXEL_BYTES = 3 }; /* section 8.2.33: 18 bits per pixel */
 
 /* Resets. The registers of section 8.2 that "no change" stands for on a software reset are COLMOD and MADCTL. */
 
 static void full_window(el_lcd *lcd)
 {
-    const bool exchanged = (lcd->madctl & EL_MADCTL_MV) != 0;
-    const uint16_t last_column = (uint16_t)(lcd->profile.columns - 1);
-    const uint16_t last_row = (uint16_t)(lcd->profile.rows - 1);
-    lcd->columns = (el_lcd_range){0, exchanged ? last_row : last_column};
-    lcd->pages = (el_lcd_range){0, exchanged ? last_column : last_row};
+    el_dcs *const dcs = &lcd->chip.dcs;
+    const bool exchanged = (dcs->madctl & EL_MADCTL_MV) != 0;
+    const uint16_t last_column = (uint16_t)(lcd->profile.memory_columns - 1);
+    const uint16_t last_row = (uint16_t)(lcd->profile.memory_rows - 1);
+    dcs->columns = (el_lcd_range){0, exchanged ? last_row : last_column};
+    dcs->pages = (el_lcd_range){0, exchanged ? last_column : last_row};
 }
 
 static void software_reset(el_lcd *lcd)
 {
-    lcd->awake = false;
-    lcd->on = false;
-    lcd->inverted = false;
-    lcd->idle = false;
-    lcd->scrolling = false;
-    lcd->wrap = true;
-    lcd->disctrl = DEFAULT_DISCTRL;
-    lcd->top_fixed = 0;
-    lcd->scroll_area = lcd->profile.rows;
-    lcd->scroll_start = 0;
-    lcd->writable = false;
+    el_dcs *const dcs = &lcd->chip.dcs;
+    dcs->awake = false;
+    dcs->on = false;
+    dcs->inverted = false;
+    dcs->idle = false;
+    dcs->scrolling = false;
+    dcs->wrap = true;
+    dcs->gates_reversed = false;
+    dcs->sources_reversed = false;
+    dcs->values_reversed = false;
+    dcs->low_byte_first = false;
+    dcs->top_fixed = 0;
+    dcs->scroll_area = lcd->profile.memory_rows;
+    dcs->scroll_start = 0;
+    dcs->writable = false;
     full_window(lcd);
 }
 
-void el_lcd_default_registers(el_lcd *lcd)
+/* Before the registers change, because being awake prolongs the waiting. */
+static void wait_after_reset(el_lcd *lcd, uint64_t settle_ns, const char *what)
 {
-    lcd->madctl = 0;
-    lcd->pixel_bytes = DEFAULT_PIXEL_BYTES;
-    software_reset(lcd);
-}
-
-static el_lcd_wait wait_from_now(const el_lcd *lcd, uint64_t ns, const char *after)
-{
-    return (el_lcd_wait){lcd->now_ns + ns, after};
-}
-
-void el_lcd_wait_after_reset(el_lcd *lcd, const char *what)
-{
-    lcd->any = wait_from_now(lcd, SETTLE_NS, what);
-    if (lcd->awake) {
-        lcd->sleep_out = wait_from_now(lcd, SLEEP_CHANGE_NS, what);
+    lcd->any = el_lcd_wait_from_now(lcd, settle_ns, what);
+    if (lcd->chip.dcs.awake) {
+        lcd->sleep_out = el_lcd_wait_from_now(lcd, lcd->profile.chip->dcs->sleep_change_ns, what);
     }
+}
+
+static void hardware_reset(el_lcd *lcd)
+{
+    el_dcs *const dcs = &lcd->chip.dcs;
+    wait_after_reset(lcd, lcd->profile.chip->dcs->reset_settle_ns, "reset");
+    dcs->madctl = 0;
+    dcs->pixel_bytes = DEFAULT_PIXEL_BYTES;
+    dcs->pixel_count = 0;
+    software_reset(lcd);
 }
 
 /* The address counter, section 9.3. */
 
 static bool is_outside(const el_lcd *lcd)
 {
-    const bool exchanged = (lcd->madctl & EL_MADCTL_MV) != 0;
-    return lcd->columns.end >= (exchanged ? lcd->profile.rows : lcd->profile.columns) ||
-           lcd->pages.end >= (exchanged ? lcd->profile.columns : lcd->profile.rows);
+    const el_dcs *const dcs = &lcd->chip.dcs;
+    const bool exchanged = (dcs->madctl & EL_MADCTL_MV) != 0;
+    return dcs->columns.end >= (exchanged ? lcd->profile.memory_rows : lcd->profile.memory_columns) ||
+           dcs->pages.end >= (exchanged ? lcd->profile.memory_columns : lcd->profile.memory_rows);
 }
 
 /* The limits depend on MADCTL, and CASET and PASET are looked at when RAMWR comes (section 8.2.20): so are errors. */
 static void begin_pixels(el_lcd *lcd)
 {
-    const bool reversed = lcd->columns.start > lcd->columns.end || lcd->pages.start > lcd->pages.end;
+    el_dcs *const dcs = &lcd->chip.dcs;
+    const bool reversed = dcs->columns.start > dcs->columns.end || dcs->pages.start > dcs->pages.end;
     if (reversed || is_outside(lcd)) {
         el_lcd_report(lcd, EL_LCD_BAD_WINDOW,
-                      "2Ch RAMWR: window columns %u..%u, pages %u..%u is %s with MADCTL %02Xh (8.2.20)",
-                      lcd->columns.start, lcd->columns.end, lcd->pages.start, lcd->pages.end,
-                      reversed ? "reversed" : "out of range", lcd->madctl);
+                      "2Ch RAMWR: window columns %u..%u, pages %u..%u is %s with MADCTL %02Xh (%s)", dcs->columns.start,
+                      dcs->columns.end, dcs->pages.start, dcs->pages.end, reversed ? "reversed" : "out of range",
+                      dcs->madctl, el_lcd_section(lcd, EL_DCS_CASET));
     }
-    lcd->writable = !reversed;
-    lcd->full = false;
-    lcd->column = lcd->columns.start;
-    lcd->page = lcd->pages.start;
+    dcs->writable = !reversed;
+    dcs->full = false;
+    dcs->column = dcs->columns.start;
+    dcs->page = dcs->pages.start;
 }
 
 static void store_pixel(el_lcd *lcd, uint32_t rgb18)
 {
-    const bool exchanged = (lcd->madctl & EL_MADCTL_MV) != 0;
-    unsigned column = exchanged ? lcd->page : lcd->column;
-    unsigned row = exchanged ? lcd->column : lcd->page;
-    if (column >= lcd->profile.columns || row >= lcd->profile.rows) {
+    el_dcs *const dcs = &lcd->chip.dcs;
+    const bool exchanged = (dcs->madctl & EL_MADCTL_MV) != 0;
+    unsigned column = exchanged ? dcs->page : dcs->column;
+    unsigned row = exchanged ? dcs->column : dcs->page;
+    if (column >= lcd->profile.memory_columns || row >= lcd->profile.memory_rows) {
         return; /* "data of out of range will be ignored", section 8.2.20 */
     }
-    if ((lcd->madctl & EL_MADCTL_MX) != 0) {
-        column = lcd->profile.columns - 1U - column;
+    if ((dcs->madctl & EL_MADCTL_MX) != 0) {
+        column = lcd->profile.memory_columns - 1U - column;
     }
-    if ((lcd->madctl & EL_MADCTL_MY) != 0) {
-        row = lcd->profile.rows - 1U - row;
+    if ((dcs->madctl & EL_MADCTL_MY) != 0) {
+        row = lcd->profile.memory_rows - 1U - row;
     }
-    lcd->memory[(size_t)row * lcd->profile.columns + column] = rgb18;
+    *el_lcd_cell(lcd, column, row) = rgb18;
     lcd->pixels++;
 }
 
 static void step_address(el_lcd *lcd)
 {
-    if (lcd->column != lcd->columns.end) {
-        lcd->column++;
+    el_dcs *const dcs = &lcd->chip.dcs;
+    if (dcs->column != dcs->columns.end) {
+        dcs->column++;
         return;
     }
-    lcd->column = lcd->columns.start;
-    if (lcd->page != lcd->pages.end) {
-        lcd->page++;
+    dcs->column = dcs->columns.start;
+    if (dcs->page != dcs->pages.end) {
+        dcs->page++;
         return;
     }
-    lcd->page = lcd->pages.start;
-    lcd->full = !lcd->wrap;
+    dcs->page = dcs->pages.start;
+    dcs->full = !dcs->wrap;
 }
 
 /* Section 7.6.2: 16 bits are R5 G6 B5, most significant first; 18 bits are the upper six of three bytes. With EPF 00 of
  * IFCTL (section 8.3.28) the missing lowest bit of red and blue is a copy of the highest. */
 static uint32_t pixel_value(const el_lcd *lcd)
 {
-    if (lcd->pixel_bytes == 3) {
-        return (uint32_t)lcd->pixel[0] >> 2 << 12 | (uint32_t)lcd->pixel[1] >> 2 << 6 | (uint32_t)lcd->pixel[2] >> 2;
+    const el_dcs *const dcs = &lcd->chip.dcs;
+    if (dcs->pixel_bytes == 3) {
+        return (uint32_t)dcs->pixel[0] >> 2 << 12 | (uint32_t)dcs->pixel[1] >> 2 << 6 | (uint32_t)dcs->pixel[2] >> 2;
     }
-    const uint32_t rgb565 = (uint32_t)lcd->pixel[0] << 8 | lcd->pixel[1];
+    const unsigned high = dcs->low_byte_first ? 1 : 0;
+    const uint32_t rgb565 = (uint32_t)dcs->pixel[high] << 8 | dcs->pixel[1 - high];
     const uint32_t red = rgb565 >> 11;
     const uint32_t green = rgb565 >> 5 & 0x3F;
     const uint32_t blue = rgb565 & 0x1F;
     return (red << 1 | red >> 4) << 12 | green << 6 | (blue << 1 | blue >> 4);
 }
 
-void el_lcd_pixel_byte(el_lcd *lcd, uint8_t byte)
+static void pixel_byte(el_lcd *lcd, uint8_t byte)
 {
-    lcd->pixel[lcd->pixel_count++] = byte;
-    if (lcd->pixel_count < lcd->pixel_bytes) {
+    el_dcs *const dcs = &lcd->chip.dcs;
+    dcs->pixel[dcs->pixel_count++] = byte;
+    if (dcs->pixel_count < dcs->pixel_bytes) {
         return;
     }
-    lcd->pixel_count = 0;
-    if (lcd->writable && !lcd->full) {
+    dcs->pixel_count = 0;
+    if (dcs->writable && !dcs->full) {
         store_pixel(lcd, pixel_value(lcd));
         step_address(lcd);
     }
@@ -150,8 +154,7 @@ void el_lcd_pixel_byte(el_lcd *lcd, uint8_t byte)
 
 static void bad_value(el_lcd *lcd, const char *what)
 {
-    el_lcd_report(lcd, EL_LCD_BAD_VALUE, "%02Xh %s: %s (section %s)", lcd->command->code, lcd->command->name, what,
-                  lcd->command->section);
+    el_lcd_report_command(lcd, EL_LCD_BAD_VALUE, what);
 }
 
 static uint16_t word(const el_lcd *lcd, unsigned index)
@@ -159,32 +162,27 @@ static uint16_t word(const el_lcd *lcd, unsigned index)
     return (uint16_t)(lcd->parameters[index] << 8 | lcd->parameters[index + 1]);
 }
 
-static void enter_sleep(el_lcd *lcd)
+static void change_sleep(el_lcd *lcd, bool awake)
 {
-    lcd->any = wait_from_now(lcd, SETTLE_NS, "SLPIN");
-    if (lcd->awake) {
-        lcd->sleep_out = wait_from_now(lcd, SLEEP_CHANGE_NS, "SLPIN");
+    el_dcs *const dcs = &lcd->chip.dcs;
+    const el_dcs_chip *const chip = lcd->profile.chip->dcs;
+    lcd->any = el_lcd_wait_from_now(lcd, chip->sleep_settle_ns, lcd->command->name);
+    if (dcs->awake != awake) {
+        el_lcd_wait *const back = awake ? &lcd->sleep_in : &lcd->sleep_out;
+        *back = el_lcd_wait_from_now(lcd, chip->sleep_change_ns, lcd->command->name);
     }
-    lcd->awake = false;
-}
-
-static void leave_sleep(el_lcd *lcd)
-{
-    lcd->any = wait_from_now(lcd, SETTLE_NS, "SLPOUT");
-    if (!lcd->awake) {
-        lcd->sleep_in = wait_from_now(lcd, SLEEP_CHANGE_NS, "SLPOUT");
-    }
-    lcd->awake = true;
+    dcs->awake = awake;
 }
 
 static void set_pixel_format(el_lcd *lcd, uint8_t value)
 {
+    el_dcs *const dcs = &lcd->chip.dcs;
     switch (value & 0x8F) { /* bits 6..4 are for the RGB interface, which is not connected */
     case 0x05:
-        lcd->pixel_bytes = 2;
+        dcs->pixel_bytes = 2;
         break;
     case 0x06:
-        lcd->pixel_bytes = 3;
+        dcs->pixel_bytes = 3;
         break;
     default:
         bad_value(lcd, "bits 2..0 must be 101 (16 bits per pixel) or 110 (18)");
@@ -194,97 +192,77 @@ static void set_pixel_format(el_lcd *lcd, uint8_t value)
 
 static void define_scrolling(el_lcd *lcd)
 {
+    el_dcs *const dcs = &lcd->chip.dcs;
     const unsigned top = word(lcd, 0);
     const unsigned area = word(lcd, 2);
     const unsigned bottom = word(lcd, 4);
-    if (top + area + bottom != lcd->profile.rows || area == 0) {
+    if (top + area + bottom != lcd->profile.memory_rows || area == 0) {
         bad_value(lcd, "top, scrolling and bottom lines must add up to the rows of the glass");
         return;
     }
-    lcd->top_fixed = (uint16_t)top;
-    lcd->scroll_area = (uint16_t)area;
-    lcd->scroll_start = (uint16_t)top;
+    dcs->top_fixed = (uint16_t)top;
+    dcs->scroll_area = (uint16_t)area;
+    dcs->scroll_start = (uint16_t)top;
 }
 
 static void start_scrolling(el_lcd *lcd)
 {
+    el_dcs *const dcs = &lcd->chip.dcs;
     const uint16_t line = word(lcd, 0);
-    if (line < lcd->top_fixed || line >= lcd->top_fixed + lcd->scroll_area) {
+    if (line < dcs->top_fixed || line >= dcs->top_fixed + dcs->scroll_area) {
         bad_value(lcd, "the line must be inside the scrolling area");
         return;
     }
-    lcd->scroll_start = line;
-    lcd->scrolling = true;
+    dcs->scroll_start = line;
+    dcs->scrolling = true;
 }
 
-static void set_display_function(el_lcd *lcd)
+static void execute(el_lcd *lcd)
 {
-    lcd->disctrl = lcd->parameters[1];
-    if ((lcd->disctrl & EL_DISCTRL_SM) != 0) {
-        bad_value(lcd, "interlaced gates (SM) are not in this model");
-    }
-    if (lcd->profile.all_lines != 0 && lcd->parameters[2] != lcd->profile.all_lines) {
-        bad_value(lcd, "NL does not drive all lines of the glass");
-    }
-}
-
-/* Exclusive-or bits on MADCTL, other expansions to 18 bits, little-endian, the RGB interface: no driver for a serial
- * display uses them, so they are more likely a mistake. */
-static void set_interface(el_lcd *lcd)
-{
-    if ((lcd->parameters[0] & 0xFE) != 0 || lcd->parameters[1] != 0 || lcd->parameters[2] != 0) {
-        bad_value(lcd, "only WEMODE is in this model, all other bits must be 0");
-    }
-    lcd->wrap = (lcd->parameters[0] & 0x01) != 0;
-}
-
-void el_lcd_execute(el_lcd *lcd)
-{
-    switch (lcd->command->code) {
+    el_dcs *const dcs = &lcd->chip.dcs;
+    switch (lcd->code) {
     case EL_DCS_SWRESET:
-        el_lcd_wait_after_reset(lcd, "SWRESET");
+        wait_after_reset(lcd, lcd->profile.chip->dcs->swreset_settle_ns, "SWRESET");
         software_reset(lcd);
         break;
     case EL_DCS_SLPIN:
-        enter_sleep(lcd);
-        break;
     case EL_DCS_SLPOUT:
-        leave_sleep(lcd);
+        change_sleep(lcd, lcd->code == EL_DCS_SLPOUT);
         break;
     case EL_DCS_NORON: /* "Normal display mode on means Partial mode off, Scroll mode off", section 8.2.14 */
-        lcd->scrolling = false;
+        dcs->scrolling = false;
         break;
     case EL_DCS_INVOFF:
     case EL_DCS_INVON:
-        lcd->inverted = lcd->command->code == EL_DCS_INVON;
+        dcs->inverted = lcd->code == EL_DCS_INVON;
         break;
     case EL_DCS_DISPOFF:
     case EL_DCS_DISPON:
-        lcd->on = lcd->command->code == EL_DCS_DISPON;
+        dcs->on = lcd->code == EL_DCS_DISPON;
         break;
     case EL_DCS_IDMOFF:
     case EL_DCS_IDMON:
-        lcd->idle = lcd->command->code == EL_DCS_IDMON;
+        dcs->idle = lcd->code == EL_DCS_IDMON;
         break;
     case EL_DCS_CASET:
-        lcd->columns = (el_lcd_range){word(lcd, 0), word(lcd, 2)};
-        lcd->writable = false;
+        dcs->columns = (el_lcd_range){word(lcd, 0), word(lcd, 2)};
+        dcs->writable = false;
         break;
     case EL_DCS_PASET:
-        lcd->pages = (el_lcd_range){word(lcd, 0), word(lcd, 2)};
-        lcd->writable = false;
+        dcs->pages = (el_lcd_range){word(lcd, 0), word(lcd, 2)};
+        dcs->writable = false;
         break;
     case EL_DCS_MADCTL:
-        lcd->madctl = lcd->parameters[0];
-        lcd->writable = false;
+        dcs->madctl = lcd->parameters[0];
+        dcs->writable = false;
         break;
     case EL_DCS_RAMWR:
         begin_pixels(lcd);
         break;
     case EL_DCS_RAMWRC: /* "written to undefined addresses" otherwise, section 8.2.34 */
-        if (!lcd->writable) {
-            el_lcd_report(lcd, EL_LCD_NO_RAMWR,
-                          "3Ch RAMWRC without RAMWR since reset, CASET, PASET or MADCTL (8.2.34)");
+        if (!dcs->writable) {
+            el_lcd_report(lcd, EL_LCD_NO_RAMWR, "3Ch %s without RAMWR since reset, CASET, PASET or MADCTL (%s)",
+                          lcd->command->name, lcd->command->section);
         }
         break;
     case EL_DCS_COLMOD:
@@ -301,13 +279,46 @@ void el_lcd_execute(el_lcd *lcd)
     case EL_DCS_VSCRSADD:
         start_scrolling(lcd);
         break;
-    case EL_ILI_DISCTRL:
-        set_display_function(lcd);
-        break;
-    case EL_ILI_IFCTL:
-        set_interface(lcd);
-        break;
-    default: /* voltages, gamma and timing: nothing that a pixel's place or value depends on */
+    default:
+        lcd->profile.chip->dcs->execute(lcd);
         break;
     }
 }
+
+static void check(el_lcd *lcd)
+{
+    if (lcd->code == EL_DCS_SLPOUT) {
+        el_lcd_check_wait(lcd, &lcd->sleep_out);
+    }
+    if (lcd->code == EL_DCS_SLPIN || lcd->code == EL_DCS_SWRESET) {
+        el_lcd_check_wait(lcd, &lcd->sleep_in);
+    }
+}
+
+static bool takes_pixels(const el_lcd_command *command)
+{
+    return command->code == EL_DCS_RAMWR || command->code == EL_DCS_RAMWRC;
+}
+
+static void close_command(el_lcd *lcd)
+{
+    el_dcs *const dcs = &lcd->chip.dcs;
+    if (dcs->pixel_count != 0) {
+        el_lcd_report(lcd, EL_LCD_HALF_PIXEL, "%02Xh %s ended after %u of the %u bytes of a pixel", lcd->code,
+                      lcd->command->name, dcs->pixel_count, dcs->pixel_bytes);
+    }
+    dcs->pixel_count = 0;
+}
+
+const el_lcd_family EL_DCS_FAMILY = {
+    .parameters_are_commands = false,
+    .memory_bits = 18,
+    .reset = hardware_reset,
+    .check = check,
+    .execute = execute,
+    .takes_pixels = takes_pixels,
+    .pixel_byte = pixel_byte,
+    .close = close_command,
+    .is_lit = el_dcs_is_lit,
+    .glass_pixel = el_dcs_glass_pixel,
+};

@@ -96,6 +96,8 @@ fault arm_objects "a libc function" "calls puts" $low <<<'int puts(const char *)
 fault arm_objects "a variable" "variable el_state" $low <<<'int el_state; int el_f(void) { return el_state++; }'
 fault arm_objects "a local static" "variable count" $low \
     <<<'int el_f(void) { static int count = 1; return count++; }'
+fault riscv_objects "soft floating point" "calls __mulsf3" $low <<<'int el_f(int x) { return (int)(x * 0.1f); }'
+fault riscv_objects "a variable" "variable el_state" $low <<<'int el_state; int el_f(void) { return el_state++; }'
 fault layers "an upward include" "low.c does not compile" $low <<<'#include "raster/high.h"'
 fault layers "a header that leans on its user" "own.h does not compile" firmware/src/base/own.h <<<'uint32_t el_own(void);'
 fault layers "an unknown layer" "no layer that this gate knows" firmware/src/extra/x.h <<<'#pragma once'

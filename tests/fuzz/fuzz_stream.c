@@ -17,7 +17,7 @@ typedef struct link {
     uint8_t room;     /* bytes that a write takes at most; 0: none */
     uint8_t chunk;    /* bytes that a read brings at most */
     bool gone;
-    bool stalled;       /* took no byte at some time, or is gone: what is on the line may be broken off */
+    bool stalled;       /* may have used up the stream's patience, or is gone: what is on the line may be broken off */
     uint8_t line[2048]; /* since the last 00 */
     size_t line_bytes;
     unsigned calls;
@@ -105,6 +105,12 @@ static void link_wait(void *context)
     l->clock_us += 1000;
 }
 
+static void take_input(void *context, uint8_t control, int32_t value)
+{
+    link *const l = context;
+    l->clock_us += (uint32_t)value & control; /* both are there to be read */
+}
+
 static void from_host(link *l, const uint8_t *bytes, size_t count)
 {
     const size_t room = sizeof l->to_device - l->queued;
@@ -185,6 +191,7 @@ static void operate(input *in, link *l, el_stream *stream, const el_sink *sink)
     case 3:
         l->clock_us += take_u32(in);
         l->tick_us = take_u16(in);
+        l->stalled = l->stalled || l->tick_us > EL_STREAM_BYTE_US; /* a tick may bring a single byte */
         break;
     case 4:
         draw_frame(in, sink, stream->config.width, stream->config.height);
@@ -227,6 +234,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
                                      .target = "fuzz",
                                      .firmware = "any",
                                      .one_way = take_u8(&in) % 8 == 0,
+                                     .input = take_input,
+                                     .input_context = &l,
                                      .memory = memory + take_u8(&in) % 4,
                                      .memory_bytes = memory_bytes};
     el_stream stream;

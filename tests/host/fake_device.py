@@ -92,6 +92,7 @@ class FakeDevice:
     boot_id: int = 0x1234ABCD
     runs: bool = True
     skips: bool = True
+    takes_input: bool = True
     major: int = protocol.MAJOR
     frame_us: int = 40_000
     faults: Faults = field(default_factory=Faults)
@@ -172,6 +173,8 @@ class FakeDevice:
         capabilities = protocol.Capability.RAW | protocol.Capability.RUNS
         if self.skips:
             capabilities |= protocol.Capability.SKIPS_LINES
+        if self.takes_input:
+            capabilities |= protocol.Capability.INPUT
         self.send(
             protocol.Hello(
                 self.width, self.height, capabilities, self.boot_id, "fake board", "edgeline 0.1.0", highest_baud=921600

@@ -11,19 +11,20 @@ import pytest
 from edgeline import protocol
 from edgeline.errors import DeviceError, WireError
 from edgeline.framing import Packet
-from edgeline.protocol import Ack, Band, Body, Capability, Codec, FrameEnd, Hello, Key, Log, Ping, Start, Stop
+from edgeline.protocol import Ack, Band, Body, Capability, Codec, FrameEnd, Hello, Input, Key, Log, Ping, Start, Stop
 
 HELLO_BYTES = (
-    bytes.fromhex("4544474c 01 00 4001 f000 01 00 0000 e803 03010000 00c20100 cdab3412".replace(" ", ""))
+    bytes.fromhex("4544474c 01 01 4001 f000 01 00 0000 e803 03030000 00c20100 cdab3412".replace(" ", ""))
     + b"\x04Pico\x09edge 0.1b"
 )
 HELLO = Hello(
     width=320,
     height=240,
-    capabilities=Capability.RAW | Capability.RUNS | Capability.SKIPS_LINES,
+    capabilities=Capability.RAW | Capability.RUNS | Capability.SKIPS_LINES | Capability.INPUT,
     boot_id=0x1234ABCD,
     target="Pico",
     firmware="edge 0.1b",
+    minor=1,
     largest_packet=1000,
     highest_baud=115200,
 )
@@ -42,6 +43,8 @@ BODIES: list[tuple[Body, bytes]] = [
     (Key(0, 240), bytes.fromhex("0000f000")),
     (Ping(), b""),
     (Stop(), b""),
+    (Input(1, 3), bytes.fromhex("0103000000")),
+    (Input(200, -2), bytes.fromhex("c8feffffff")),
     (Log("größer"), "größer".encode()),
 ]
 NAMES = [type(body).__name__ for body, _ in BODIES]
@@ -98,7 +101,7 @@ def test_hellos_that_break_a_rule_are_damage(data: bytes, message: str) -> None:
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (patched(4, b"\x02"), r"version 2\.0 .* update the host"),
+        (patched(4, b"\x02"), r"version 2\.1 .* update the host"),
         (b"EDGL\x00\x09", r"version 0\.9 .* update the firmware"),
         (patched(10, b"\x02"), "pixel format 2"),
         (patched(16, struct.pack("<I", 4 | 256)), "neither raw nor run-length"),
@@ -121,7 +124,7 @@ def test_a_band_without_lines_is_damage() -> None:
 
 
 def test_unknown_types_are_ignored() -> None:
-    assert protocol.unpack(Packet(0x0A, 0, b"reserved")) is None
+    assert protocol.unpack(Packet(0x0B, 0, b"reserved")) is None
 
 
 def test_counters_have_the_names_and_the_order_of_stats_h() -> None:

@@ -37,7 +37,7 @@ def test_info(link: type[_Served], edgeline: Edgeline) -> None:
         assert "48 x 32 RGB565" in text.stdout
         parsed = json.loads(edgeline("info", "--json", env={"EDGELINE_PORT": served.port}).stdout)
     assert parsed["boot_id"] == 0x1234ABCD
-    assert parsed["capabilities"] == ["raw bands", "run-length bands", "leaves out unchanged lines"]
+    assert parsed["capabilities"] == ["raw bands", "run-length bands", "leaves out unchanged lines", "takes input"]
 
 
 def test_shot_is_the_device_s_picture(link: type[_Served], edgeline: Edgeline, tmp_path: Path) -> None:

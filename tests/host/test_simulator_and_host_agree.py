@@ -89,6 +89,32 @@ def test_over_tcp_too(simulator: str, scenes: list[str], tmp_path: Path) -> None
                 break
 
 
+def test_the_host_chooses_scene_and_frame(simulator: str, scenes: list[str], tmp_path: Path) -> None:
+    """One device, all scenes: the first frame after each START is the one that was asked for, and it stays."""
+    with streaming(simulator, scenes[0], "--pty") as port:
+        for number, scene in enumerate(scenes):
+            with package.open(port) as link:
+                link.control("scene", number)
+                link.control("frame", FRAMES - 2)
+                link.control("pause", 1)
+                first, second = link.next_frame(), link.next_frame()
+                truth = rendered(simulator, scene, (link.hello.width, link.hello.height), tmp_path)
+                assert np.array_equal(first.picture, truth[-2]), f"{scene}, first frame"
+                assert np.array_equal(second.picture, truth[-2]), f"{scene}, paused"
+
+
+def test_a_paused_scene_goes_on_where_it_stood(simulator: str, scenes: list[str], tmp_path: Path) -> None:
+    with streaming(simulator, scenes[0], "--pty") as port, package.open(port) as link:
+        link.control("pause", 1)
+        link.control("frame", FRAMES - 2)
+        link.next_frame()
+        truth = rendered(simulator, scenes[0], (link.hello.width, link.hello.height), tmp_path)
+        link.control("pause", 0)
+        shown = (frame.picture for frame in link)
+        moved = next(picture for picture in shown if not np.array_equal(picture, truth[-2]))
+        assert np.array_equal(moved, truth[-1])
+
+
 def test_commands(simulator: str, scenes: list[str], edgeline: Edgeline, tmp_path: Path) -> None:
     with streaming(simulator, scenes[0], "--pty") as port:
         info = json.loads(edgeline("info", "-p", port, "--json").stdout)

@@ -113,7 +113,7 @@ def watch() -> Iterator[Watch]:
     readers = []
 
     def start(model: ViewModel, transport: Transport) -> Reader:
-        readers.append(Reader(model, transport, 115200, 0))
+        readers.append(Reader(model, transport, 115200))
         readers[-1].start()
         return readers[-1]
 

@@ -1,7 +1,10 @@
 /* Seeded numbers for the loops of the tests (Marsaglia, "Xorshift RNGs", 2003), and failures that name their seed.
  *
  * A loop keeps one `seeded` and counts its rounds in it; when a check fails, the message has the seed and the round, so
- * that the case can be found again. */
+ * that the case can be found again.
+ *
+ * Long loops run PART_OF their rounds: all of them on a computer, and on emulated cores, which are thirty times slower, the
+ * first of every EL_TEST_PART. Every test runs everywhere. */
 #ifndef EL_TEST_SEEDED_H
 #define EL_TEST_SEEDED_H
 
@@ -10,6 +13,13 @@
 #include <stdio.h>
 
 #include "unity.h"
+
+#ifndef EL_TEST_PART
+#define EL_TEST_PART 1
+#endif
+
+/* Of `all` rounds, or of things that so many rounds must find: at least one. */
+#define PART_OF(all) (((all) + EL_TEST_PART - 1) / EL_TEST_PART)
 
 typedef struct seeded {
     uint64_t seed;

@@ -17,9 +17,20 @@ typedef struct test_device {
     uint16_t pixels[DEVICE_MAX_WIDTH * DEVICE_MAX_HEIGHT]; /* the picture of the next frame */
     uint8_t memory[EL_STREAM_MEMORY_BYTES(DEVICE_MAX_WIDTH, DEVICE_MAX_HEIGHT) + 2];
     size_t memory_bytes;
+    uint32_t inputs; /* in all */
+    uint8_t control; /* of the last one */
+    int32_t value;
 } test_device;
 
 enum { MEMORY_GUARD = 0xA5 };
+
+static inline void device_input(void *context, uint8_t control, int32_t value)
+{
+    test_device *device = context;
+    device->inputs++;
+    device->control = control;
+    device->value = value;
+}
 
 static inline el_stream_config device_config(test_device *device, uint16_t width, uint16_t height)
 {
@@ -30,6 +41,8 @@ static inline el_stream_config device_config(test_device *device, uint16_t width
                               .firmware = "fw 2",
                               .boot_id = 0x01020304,
                               .max_baud = 115200,
+                              .input = device_input,
+                              .input_context = device,
                               .memory = device->memory + 1, /* odd on purpose */
                               .memory_bytes = EL_STREAM_MEMORY_BYTES(width, height)};
 }

@@ -168,7 +168,7 @@ static void any_view(seeded *s)
 static void test_results_are_inside_seeded(void)
 {
     unsigned counts[EL_CLIP_MAX_VERTICES + 1] = {0};
-    for (seeded s = seeded_from(80); s.round < 200000; s.round++) {
+    for (seeded s = seeded_from(80); s.round < PART_OF(200000); s.round++) {
         el_clip_corner c[EL_CLIP_MAX_VERTICES];
         any_view(&s);
         for (unsigned i = 0; i < 3; i++) {
@@ -185,7 +185,7 @@ static void test_results_are_inside_seeded(void)
         }
     }
     for (unsigned i = 3; i <= 6; i++) {
-        TEST_ASSERT_GREATER_THAN_UINT(20, counts[i]);
+        TEST_ASSERT_GREATER_THAN_UINT(PART_OF(20), counts[i]);
     }
 }
 
@@ -210,7 +210,7 @@ static bool is_gone(const el_clip_vertex *a, const el_clip_vertex *b)
 static void test_both_triangles_of_an_edge_get_the_same_vertex(void)
 {
     unsigned cut_edges = 0;
-    for (seeded s = seeded_from(81); s.round < 100000; s.round++) {
+    for (seeded s = seeded_from(81); s.round < PART_OF(100000); s.round++) {
         any_view(&s);
         transform.orthographic = 1;
         transform.constant_w = 1 << 29; /* and a guard band that nothing leaves */
@@ -235,14 +235,14 @@ static void test_both_triangles_of_an_edge_get_the_same_vertex(void)
             }
         }
     }
-    TEST_ASSERT_GREATER_THAN_UINT(20000, cut_edges);
+    TEST_ASSERT_GREATER_THAN_UINT(PART_OF(20000), cut_edges);
 }
 
 /* At every plane: the same, for edges of which one end is inside. */
 static void test_edges_at_all_planes_seeded(void)
 {
     unsigned cut_edges = 0;
-    for (seeded s = seeded_from(82); s.round < 200000; s.round++) {
+    for (seeded s = seeded_from(82); s.round < PART_OF(200000); s.round++) {
         any_view(&s);
         const el_clip_corner a = any_clip_corner(&s);
         const el_clip_corner b = any_clip_corner(&s);
@@ -265,7 +265,7 @@ static void test_edges_at_all_planes_seeded(void)
             }
         }
     }
-    TEST_ASSERT_GREATER_THAN_UINT(5000, cut_edges);
+    TEST_ASSERT_GREATER_THAN_UINT(PART_OF(5000), cut_edges);
 }
 
 int main(void)

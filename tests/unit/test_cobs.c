@@ -181,19 +181,25 @@ static void test_delimiter_and_discard(void)
 /* el_cobs_room promises: that many bytes, whatever they are, go in without taking. */
 static void test_room_is_kept(void)
 {
-    for (uint16_t capacity = EL_COBS_ENCODER_MIN_BYTES; capacity < 600; capacity++) {
-        uint8_t buffer[600];
-        uint8_t packet[600] = {0};
+    for (uint16_t capacity = EL_COBS_ENCODER_MIN_BYTES; capacity < 1100; capacity++) {
+        uint8_t buffer[1101];
+        uint8_t packet[1100];
         el_cobs_encoder queue;
+        uint32_t stretch = 252 + random_below(&seed, 5); /* of bytes that are not 00, around a full block's 254 */
+        size_t most = random_below(&seed, 2) == 0 ? 40 : sizeof packet;
 
-        memset(packet, (int)(random_u32(&seed) & 1), sizeof packet);
+        for (size_t i = 0; i < sizeof packet; i++) {
+            packet[i] = i % stretch == stretch - 1 ? 0 : 1;
+        }
+        buffer[capacity] = GUARD;
         el_cobs_init(&queue, buffer, capacity);
         for (size_t room = el_cobs_room(&queue); room > 0; room = el_cobs_room(&queue)) {
-            size_t count = room < 40 ? room : 40;
+            size_t count = room < most ? room : most;
             el_cobs_delimit(&queue);
             el_cobs_begin(&queue);
             TEST_ASSERT_EQUAL_UINT32(count, el_cobs_put(&queue, packet, count));
             el_cobs_end(&queue);
+            TEST_ASSERT_EQUAL_UINT8(GUARD, buffer[capacity]);
         }
     }
 }

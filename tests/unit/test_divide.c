@@ -2,10 +2,9 @@
 #include "base/divide.h"
 
 #include "seeded.h"
+#include "wide.h"
 
-typedef __int128 wide;
-
-enum { ROUNDS = 200000 };
+enum { ROUNDS = PART_OF(200000) };
 
 void setUp(void)
 {
@@ -29,11 +28,17 @@ static void expect_reciprocal(const seeded *s, uint32_t d)
     }
 }
 
-/* Truncated towards zero, modulo 2^64; the wide division has the same quotients where both can divide. */
+/* (n + fraction * 2^-32) / d in Q32, truncated towards zero, modulo 2^64. */
+static uint64_t exact_q32(int64_t n, uint32_t fraction, uint64_t d)
+{
+    return wide_quotient(wide_sum(wide_left(wide_of(n), 32), wide_of(fraction)), (int64_t)d).low;
+}
+
+/* The wide division has the same quotients where both can divide. */
 static void expect_q32(const seeded *s, int64_t n, uint32_t fraction, uint32_t d)
 {
     const el_divisor divisor = el_divisor_make(d);
-    const uint64_t expected = (uint64_t)(((wide)n * ((wide)1 << 32) + fraction) / d);
+    const uint64_t expected = exact_q32(n, fraction, d);
     if ((uint64_t)el_divide_q32(n, fraction, &divisor) != expected ||
         (uint64_t)el_divide_wide_q32(n, fraction, d) != expected) {
         fail_at(s, "(%lld + %lu * 2^-32) / %lu in Q32", (long long)n, (unsigned long)fraction, (unsigned long)d);
@@ -47,20 +52,20 @@ static void expect_quotients(const seeded *s, uint32_t d, uint64_t n)
     if (n / d <= UINT32_MAX && el_divide_u64(n, &divisor) != n / d) {
         fail_at(s, "%llu / %lu", (unsigned long long)n, (unsigned long)d);
     }
+    if (n > INT64_MAX) {
+        return;
+    }
     for (int sign = -1; sign <= 1; sign += 2) {
-        const wide signed_n = (wide)n * sign;
-        if (signed_n <= INT64_MIN || signed_n > INT64_MAX) {
-            continue;
-        }
-        const wide quotient = signed_n / d;
-        const wide floor = quotient - (quotient * d > signed_n);
-        if (floor >= INT32_MIN && floor <= INT32_MAX && el_divide_floor_i64((int64_t)signed_n, &divisor) != floor) {
+        const int64_t signed_n = sign < 0 ? -(int64_t)n : (int64_t)n;
+        const int64_t quotient = signed_n / d;
+        const int64_t floor = quotient - (quotient * d > signed_n);
+        if (floor >= INT32_MIN && floor <= INT32_MAX && el_divide_floor_i64(signed_n, &divisor) != floor) {
             fail_at(s, "floor(%lld / %lu)", (long long)signed_n, (unsigned long)d);
         }
-        expect_q32(s, (int64_t)signed_n, 0, d);
-        expect_q32(s, (int64_t)signed_n, 1, d);
-        expect_q32(s, (int64_t)signed_n, 0x80000000, d);
-        expect_q32(s, (int64_t)signed_n, UINT32_MAX, d);
+        expect_q32(s, signed_n, 0, d);
+        expect_q32(s, signed_n, 1, d);
+        expect_q32(s, signed_n, 0x80000000, d);
+        expect_q32(s, signed_n, UINT32_MAX, d);
     }
 }
 
@@ -82,7 +87,7 @@ static void expect_edges(const seeded *s, uint32_t d)
 static void test_small_divisors_and_powers_of_two(void)
 {
     seeded s = seeded_from(0);
-    for (uint32_t d = 1; d <= 2048; d++) {
+    for (uint32_t d = 1; d <= PART_OF(2048); d++) {
         expect_edges(&s, d);
         expect_edges(&s, 0 - d);
     }
@@ -131,8 +136,7 @@ static void test_wide_divisors_seeded(void)
         const uint64_t d = 1 + any_of_bits(&s, 47) % ((1ULL << 47) - 1);
         const int64_t n = any_signed_of_bits(&s, 63);
         const uint32_t fraction = (uint32_t)any_of_bits(&s, 32);
-        const uint64_t expected = (uint64_t)(((wide)n * ((wide)1 << 32) + fraction) / (wide)d);
-        if ((uint64_t)el_divide_wide_q32(n, fraction, d) != expected) {
+        if ((uint64_t)el_divide_wide_q32(n, fraction, d) != exact_q32(n, fraction, d)) {
             fail_at(&s, "(%lld + %lu * 2^-32) / %llu in Q32", (long long)n, (unsigned long)fraction,
                     (unsigned long long)d);
         }

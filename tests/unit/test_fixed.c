@@ -2,8 +2,7 @@
 #include "base/fixed.h"
 
 #include "seeded.h"
-
-typedef __int128 wide;
+#include "wide.h"
 
 static const int64_t edges[] = {0,
                                 1,
@@ -36,13 +35,16 @@ void tearDown(void)
 
 static int64_t saturated(wide value)
 {
-    return value > INT64_MAX ? INT64_MAX : (value < -INT64_MAX ? -INT64_MAX : (int64_t)value);
+    if (wide_less(wide_of(INT64_MAX), value)) {
+        return INT64_MAX;
+    }
+    return wide_less(value, wide_of(-INT64_MAX)) ? -INT64_MAX : (int64_t)value.low;
 }
 
 /* value / 2^shift, rounded to nearest, ties up: floor(value / 2^shift + 1/2). */
-static wide rounded(wide value, int shift)
+static wide rounded(wide value, unsigned shift)
 {
-    return shift == 0 ? value : (value + ((wide)1 << (shift - 1))) >> shift;
+    return shift == 0 ? value : wide_right(wide_sum(value, wide_left(wide_of(1), shift - 1)), shift);
 }
 
 static void test_bit_lengths(void)
@@ -75,8 +77,8 @@ static void test_magnitudes_and_the_smaller_and_larger(void)
 static void expect_root(const seeded *s, uint64_t x)
 {
     const uint32_t root = el_sqrt_u64(x);
-    const unsigned __int128 next = (unsigned __int128)root + 1;
-    if ((uint64_t)root * root > x || next * next <= x) {
+    const uint64_t next = (uint64_t)root + 1; /* the square of 2^32 is more than any x */
+    if ((uint64_t)root * root > x || (next <= UINT32_MAX && next * next <= x)) {
         fail_at(s, "sqrt(%llu) = %lu", (unsigned long long)x, (unsigned long)root);
     }
 }
@@ -99,7 +101,7 @@ static void test_square_roots(void)
 
 static void expect_scaled(const seeded *s, int64_t value, uint32_t factor, int shift)
 {
-    const int64_t expected = saturated(rounded((wide)value * factor, shift));
+    const int64_t expected = saturated(rounded(wide_product(value, factor), (unsigned)shift));
     const int64_t got = el_scale_i64(value, factor, shift);
     if (got != expected) {
         fail_at(s, "%lld * %lu >> %d is %lld, not %lld", (long long)value, (unsigned long)factor, shift,
@@ -155,12 +157,9 @@ static void test_scale_next_to_ties(void)
 /* 64 places are already more than any value has, so the reference stays within 128 bits. */
 static void expect_shifted(const seeded *s, int64_t value, int shift)
 {
-    int64_t expected;
-    if (shift >= 0) {
-        expected = saturated(rounded(value, shift > 100 ? 100 : shift));
-    } else {
-        expected = saturated((wide)value * ((wide)1 << (shift < -64 ? 64 : -shift)));
-    }
+    const wide exact = shift >= 0 ? rounded(wide_of(value), shift > 100 ? 100 : (unsigned)shift)
+                                  : wide_left(wide_of(value), shift < -64 ? 64 : (unsigned)-shift);
+    const int64_t expected = saturated(exact);
     const int64_t got = el_shift_i64(value, shift);
     if (got != expected) {
         fail_at(s, "%lld >> %d is %lld, not %lld", (long long)value, shift, (long long)expected, (long long)got);

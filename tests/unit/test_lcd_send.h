@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "lcd/dcs_lcd.h"
+#include "lcd/lcd.h"
 #include "unity.h"
 
 /* Seven bits: four in red, three in green's upper half; never white, never the grey of a copy-paste error. */

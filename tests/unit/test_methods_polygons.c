@@ -194,7 +194,7 @@ static void any_outlines(seeded *s, el_polygon *polygon)
 static void test_the_reference_is_the_sum_of_triangles(void)
 {
     seeded s = seeded_from(21);
-    for (; s.round < 500; s.round++) {
+    for (; s.round < PART_OF(500); s.round++) {
         el_polygon polygon;
         any_outlines(&s, &polygon);
         for (int32_t row = 0; row < HITS_DOWN; row++) {
@@ -211,7 +211,7 @@ static void test_the_reference_is_the_sum_of_triangles(void)
 static void test_exact_methods_are_exact(void)
 {
     seeded s = seeded_from(22);
-    for (; s.round < 3000; s.round++) {
+    for (; s.round < PART_OF(3000); s.round++) {
         el_polygon polygon;
         any_outlines(&s, &polygon);
         for

@@ -2,8 +2,7 @@
 #include "raster/plane.h"
 
 #include "any_triangle.h"
-
-typedef __int128 wide;
+#include "wide.h"
 
 void setUp(void)
 {
@@ -18,9 +17,10 @@ static wide exact_times_area(const el_corner corners[3], const int64_t values[3]
 {
     const int64_t x = (int64_t)column * EL_SUBPIXELS + EL_SUBPIXELS / 2;
     const int64_t y = (int64_t)row * EL_SUBPIXELS + EL_SUBPIXELS / 2;
-    wide sum = 0;
+    wide sum = wide_of(0);
     for (unsigned i = 0; i < 3; i++) {
-        sum += (wide)reference_side(&corners[(i + 1) % 3], &corners[(i + 2) % 3], x, y) * values[i];
+        const int64_t weight = reference_side(&corners[(i + 1) % 3], &corners[(i + 2) % 3], x, y);
+        sum = wide_sum(sum, wide_product(weight, values[i]));
     }
     return sum;
 }
@@ -30,9 +30,10 @@ static void expect_value(const seeded *s, const el_corner corners[3], const int6
                          const el_plane *plane, int32_t at, int32_t column, int32_t row)
 {
     const int64_t area = reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y);
-    const wide exact_q32 = exact_times_area(corners, values, column, row) * ((wide)1 << (32 - fraction_bits)) / area;
+    const wide exact = exact_times_area(corners, values, column, row);
+    const wide exact_q32 = wide_quotient(wide_left(exact, 32 - fraction_bits), area);
     const int64_t got_q32 = (int64_t)(plane->value + el_plane_times(plane->dx, column - at));
-    const int64_t error_q32 = (int64_t)((uint64_t)got_q32 - (uint64_t)exact_q32);
+    const int64_t error_q32 = (int64_t)((uint64_t)got_q32 - exact_q32.low);
     if (error_q32 > 1 << 13 || error_q32 < -(1 << 13)) {
         fail_at(s, "pixel (%d, %d) is off by %lld * 2^-32", (int)column, (int)row, (long long)error_q32);
     }

@@ -5,7 +5,7 @@
 #include "any_scene.h"
 #include "recording_sink.h"
 
-enum { WIDTH = 40, HEIGHT = 30, PLENTY = 200000, GUARD = 64, SCENES = 40 };
+enum { WIDTH = 40, HEIGHT = 30, PLENTY = 200000, GUARD = 64, SCENES = PART_OF(40) };
 
 static any_scene scene;
 static recording whole, record, second, third;
@@ -123,7 +123,7 @@ static void test_same_pixels_for_every_band_height(void)
         }
     }
     TEST_ASSERT_EQUAL_UINT32(0, sums.flushes);
-    TEST_ASSERT_GREATER_THAN_UINT32(1000, sums.clipped);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(1000), sums.clipped);
 }
 
 static void test_same_pixels_for_every_arena(void)
@@ -138,10 +138,10 @@ static void test_same_pixels_for_every_arena(void)
                        least + more[(s.round + i) % (sizeof more / sizeof more[0])], &sums);
         }
     }
-    TEST_ASSERT_GREATER_THAN_UINT32(100, sums.passes);
-    TEST_ASSERT_GREATER_THAN_UINT32(100, sums.flushes);
-    TEST_ASSERT_GREATER_THAN_UINT32(100, sums.extra_vertices);
-    TEST_ASSERT_GREATER_THAN_UINT32(10, sums.extra_setups);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.passes);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.flushes);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.extra_vertices);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(10), sums.extra_setups);
 }
 
 /* Arenas whose size is no multiple of 8, at any address. */
@@ -160,7 +160,7 @@ static void test_odd_arenas(void)
 static void test_held_bands_do_not_change(void)
 {
     reached sums = {0};
-    for (seeded s = seeded_from(63); s.round < SCENES / 4; s.round++) {
+    for (seeded s = seeded_from(63); s.round < PART_OF(10); s.round++) {
         draw_whole(&s);
         for (unsigned i = 0; i < BAND_HEIGHTS; i++) {
             const size_t least = EL_MIN_MEMORY_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)band_heights[i]);
@@ -168,7 +168,7 @@ static void test_held_bands_do_not_change(void)
             draw_again(&s, "held bands", band_heights[i], s.round % 2 == 0 ? PLENTY : least, &sums);
         }
     }
-    TEST_ASSERT_GREATER_THAN_UINT32(100, sums.waits);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.waits);
 }
 
 /* The renderer waits for all of them; each gives back its own hold only. */
@@ -241,7 +241,7 @@ static void test_many_small_draws(void)
 /* Without depth the last one drawn wins, whatever the bands. */
 static void test_without_depth_the_last_one_wins(void)
 {
-    for (seeded s = seeded_from(67); s.round < SCENES / 2; s.round++) {
+    for (seeded s = seeded_from(67); s.round < PART_OF(20); s.round++) {
         reached sums = {0};
         memset(&whole, 0, sizeof whole);
         fill_scene(&s, &scene);

@@ -1,10 +1,11 @@
 /* Every scene of the demo and the benchmark: named once, drawn without an error in the smallest arena, and the same
  * picture for bands of 1 and 8 lines. */
 #include "scene.h"
+#include "seeded.h"
 
 #include "recording_sink.h"
 
-enum { WIDTH = 320, HEIGHT = 240, FRAMES = 2, FRAME_STEP = 47 };
+enum { WIDTH = 320, HEIGHT = 240, FRAMES = PART_OF(2), FRAME_STEP = 47 };
 
 static uint8_t memory[EL_MIN_MEMORY_BYTES(WIDTH, HEIGHT, 8U) + 4096] __attribute__((aligned(8)));
 static recording record;

@@ -100,7 +100,7 @@ static void test_hello_at_once_and_every_second(void)
     }
     TEST_ASSERT_EQUAL_UINT32(16, host.width);
     TEST_ASSERT_EQUAL_UINT32(20, host.height);
-    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_PARTIAL, host.capabilities);
+    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_PARTIAL | EL_STREAM_INPUT, host.capabilities);
 }
 
 static void test_ping_is_answered_in_any_state(void)
@@ -256,7 +256,7 @@ static void draw_interrupted(uint8_t type, const char *hex)
     interruption_type = type;
     interruption_hex = hex;
     wire.on_wait = interrupt_once;
-    wire.room = 100;
+    wire.room = 20; /* with the queue it is full in the second of three bands */
     wire.room_per_wait = 50;
     draw();
     wire.room = FAKE_OUT_BYTES;
@@ -341,7 +341,7 @@ static void test_a_slow_link_delays_and_loses_nothing(void)
     start("00 FF 00 00 03 00");
     wire.room = 0;
     wire.room_per_wait = 1;
-    wire.wait_us = SECOND_US / 2;
+    wire.wait_us = EL_STREAM_BYTE_US;
     for (int i = 0; i < 5; i++) {
         TEST_ASSERT_EQUAL_UINT32(1, draw());
     }

@@ -128,7 +128,7 @@ static void check_point(const seeded *s, const setting *t, const el_transform *t
 static void run_accuracy(const char *what, uint64_t seed, unsigned place_bits)
 {
     tally sums = {0};
-    for (seeded s = seeded_from(seed); s.round < 20000; s.round++) {
+    for (seeded s = seeded_from(seed); s.round < PART_OF(20000); s.round++) {
         const setting t = any_setting(&s, place_bits);
         el_view view;
         el_transform transform;
@@ -140,7 +140,7 @@ static void run_accuracy(const char *what, uint64_t seed, unsigned place_bits)
         }
     }
     report(what, &sums);
-    TEST_ASSERT_GREATER_THAN_UINT64(50000, sums.points);
+    TEST_ASSERT_GREATER_THAN_UINT64(PART_OF(50000), sums.points);
     TEST_ASSERT_GREATER_OR_EQUAL_UINT64_MESSAGE(sums.points / 1000 * 999, sums.correct, "too few rounded correctly");
 }
 
@@ -184,15 +184,15 @@ static void expect_seen_if_inside(const seeded *s, const setting *t, unsigned lo
 static void test_what_is_seen_is_never_culled(void)
 {
     unsigned long counts[2] = {0, 0};
-    for (seeded s = seeded_from(22); s.round < 20000; s.round++) {
+    for (seeded s = seeded_from(22); s.round < PART_OF(20000); s.round++) {
         setting t = any_setting(&s, 24);
         for (unsigned i = 0; i < 3; i++) {
             t.pose.position_q16[i] += (int32_t)any_signed_of_bits(&s, 24); /* beside the view, more often than not */
         }
         expect_seen_if_inside(&s, &t, counts);
     }
-    TEST_ASSERT_GREATER_THAN_UINT64(2000, counts[0]);
-    TEST_ASSERT_GREATER_THAN_UINT64(2000, counts[1]);
+    TEST_ASSERT_GREATER_THAN_UINT64(PART_OF(2000), counts[0]);
+    TEST_ASSERT_GREATER_THAN_UINT64(PART_OF(2000), counts[1]);
 }
 
 /* The largest clip coordinate that the bounding sphere can have, in world units. */
@@ -291,7 +291,7 @@ static void test_extreme_settings_are_neither_culled_nor_torn(void)
 {
     unsigned long counts[2] = {0, 0};
     tally sums = {0};
-    for (seeded s = seeded_from(23); s.round < 30000; s.round++) {
+    for (seeded s = seeded_from(23); s.round < PART_OF(30000); s.round++) {
         const setting t = any_extreme(&s);
         expect_seen_if_inside(&s, &t, counts);
         el_view view;
@@ -308,7 +308,7 @@ static void test_extreme_settings_are_neither_culled_nor_torn(void)
         }
     }
     report("extreme settings", &sums);
-    TEST_ASSERT_GREATER_THAN_UINT64(500, counts[0]);
+    TEST_ASSERT_GREATER_THAN_UINT64(PART_OF(500), counts[0]);
 }
 
 static void test_the_obvious_is_culled(void)

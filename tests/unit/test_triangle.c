@@ -164,7 +164,7 @@ static void expect_samples(uint64_t seed, el_shading shading)
 {
     static const uint16_t texel = 0;
     static const el_texture texture = {.texels = &texel};
-    for (seeded s = seeded_from(seed); s.round < 3000; s.round++) {
+    for (seeded s = seeded_from(seed); s.round < PART_OF(3000); s.round++) {
         const el_surface surface = {
             .shading = shading, .depth = true, .uv_error_log2 = (uint8_t)(1 + s.round % 5), .texture = &texture};
         const unsigned w_bits = (unsigned)any_between(&s, 16, 31); /* from steep to almost flat */
@@ -202,7 +202,7 @@ static void test_textured_samples_against_exact_planes(void)
 static void test_pixels_are_the_rounded_samples(void)
 {
     const el_surface surface = {.shading = EL_SHADE_GOURAUD, .depth = true};
-    for (seeded s = seeded_from(72); s.round < 1000; s.round++) {
+    for (seeded s = seeded_from(72); s.round < PART_OF(1000); s.round++) {
         el_corner corners[3];
         for (unsigned i = 0; i < 3; i++) {
             corners[i] = any_corner(&s, SIZE * EL_SUBPIXELS / 2, 400 * SIXTEENTH);
@@ -256,7 +256,7 @@ static void draw_in_bands(buffers *b, const el_corner corners[3], const el_surfa
 static void test_bands_and_first_rows_do_not_matter(void)
 {
     static buffers walked, anew;
-    for (seeded s = seeded_from(73); s.round < 2000; s.round++) {
+    for (seeded s = seeded_from(73); s.round < PART_OF(2000); s.round++) {
         const el_surface surface = {.shading = (el_shading)any_below(&s, EL_SHADE_OVERDRAW + 1),
                                     .depth = any_below(&s, 2) == 0,
                                     .colour = (uint16_t)any_u64(&s),
@@ -294,7 +294,7 @@ static bool has_same_planes(const el_corner a[3], const el_corner b[3], const el
 static void test_corners_in_any_order_give_the_same_pixels(void)
 {
     static buffers turned;
-    for (seeded s = seeded_from(74); s.round < 1000; s.round++) {
+    for (seeded s = seeded_from(74); s.round < PART_OF(1000); s.round++) {
         const el_surface surface = {.shading = (el_shading)any_below(&s, EL_SHADE_OVERDRAW),
                                     .depth = true,
                                     .uv_error_log2 = 3,

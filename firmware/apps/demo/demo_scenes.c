@@ -119,12 +119,22 @@ static el_status field_draw(uint32_t frame, el_renderer *renderer)
     return el_draw(renderer, &field, &pose, &material);
 }
 
-/* The demo proper: a part of each of the scenes above, one after the other, each from where it stopped. */
-enum { DEMO_PARTS = 4 };
+#define NAVY 0x10A3
+#define SKY 0x7DDD
 
-static uint32_t part_of(uint32_t frame)
+const el_scene el_teapot_scene = {"teapot", "Newell's teapot, lit, Gouraud-shaded", NAVY, teapot_camera, teapot_draw};
+const el_scene el_room_scene = {"room", "two textured rooms to walk through", 0, room_camera, room_draw};
+const el_scene el_solid_scene = {"solid", "a truncated icosahedron, one colour per face", NAVY, solid_camera,
+                                 solid_draw};
+const el_scene el_field_scene = {"field", "an island of 2,592 small flat triangles", SKY, field_camera, field_draw};
+
+/* The demo proper: a part of each of the scenes above, one after the other, each from where it stopped. */
+static const el_scene *const parts[] = {&el_teapot_scene, &el_room_scene, &el_solid_scene, &el_field_scene};
+enum { DEMO_PARTS = sizeof parts / sizeof parts[0] };
+
+static const el_scene *part_of(uint32_t frame)
 {
-    return frame / DEMO_PART_FRAMES % DEMO_PARTS;
+    return parts[frame / DEMO_PART_FRAMES % DEMO_PARTS];
 }
 
 static uint32_t part_frame(uint32_t frame)
@@ -134,21 +144,16 @@ static uint32_t part_frame(uint32_t frame)
 
 static void demo_camera(uint32_t frame, el_camera *camera)
 {
-    el_demo_scenes[1 + part_of(frame)].place_camera(part_frame(frame), camera);
+    part_of(frame)->place_camera(part_frame(frame), camera);
 }
 
 static el_status demo_draw(uint32_t frame, el_renderer *renderer)
 {
-    return el_demo_scenes[1 + part_of(frame)].draw(part_frame(frame), renderer);
+    return part_of(frame)->draw(part_frame(frame), renderer);
 }
 
-const el_scene el_demo_scenes[] = {
-    {"demo", "all of the following in turn, 30 frames each", 0x10A3, demo_camera, demo_draw},
-    {"teapot", "Newell's teapot, lit, Gouraud-shaded", 0x10A3, teapot_camera, teapot_draw},
-    {"room", "two textured rooms to walk through", 0x0000, room_camera, room_draw},
-    {"solid", "a truncated icosahedron, one colour per face", 0x10A3, solid_camera, solid_draw},
-    {"field", "an island of 2,592 small flat triangles", 0x7DDD, field_camera, field_draw},
-};
-const size_t el_demo_scene_count = sizeof el_demo_scenes / sizeof el_demo_scenes[0];
+static const el_scene demo = {"demo", "all of the following in turn, 30 frames each", NAVY, demo_camera, demo_draw};
 
+const el_scene *const el_demo_scenes[] = {&demo, &el_teapot_scene, &el_room_scene, &el_solid_scene, &el_field_scene};
+const size_t el_demo_scene_count = sizeof el_demo_scenes / sizeof el_demo_scenes[0];
 _Static_assert(sizeof el_demo_scenes / sizeof el_demo_scenes[0] == 1 + DEMO_PARTS, "the demo shows every scene");

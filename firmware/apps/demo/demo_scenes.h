@@ -4,7 +4,11 @@
 
 #include "scene.h"
 
-extern const el_scene el_demo_scenes[];
+/* One by one, for programs without room for all of them. */
+extern const el_scene el_teapot_scene, el_room_scene, el_solid_scene, el_field_scene;
+
+/* The demo, then each of the above. */
+extern const el_scene *const el_demo_scenes[];
 extern const size_t el_demo_scene_count;
 
 #endif

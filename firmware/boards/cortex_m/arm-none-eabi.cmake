@@ -20,4 +20,5 @@ list(JOIN edgeline_cpu_${EDGELINE_CPU} " " edgeline_cpu)
 set(CMAKE_C_FLAGS_INIT "${edgeline_cpu} -mthumb -ffunction-sections -fdata-sections")
 set(CMAKE_ASM_FLAGS_INIT "${edgeline_cpu} -mthumb")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections")
-set(CMAKE_C_FLAGS_RELEASE_INIT "-O2")
+# Not _INIT: that goes before CMake's own -O3.
+set(CMAKE_C_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "Flags of release builds")

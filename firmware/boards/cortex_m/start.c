@@ -48,6 +48,8 @@ __attribute__((naked)) void el_fault_entry(void)
                      ".ltorg\n");
 }
 
+__attribute__((weak, alias("el_fault_entry"))) void el_systick_entry(void);
+
 typedef union core_vector {
     el_vector handler;
     uint32_t *stack;
@@ -55,8 +57,10 @@ typedef union core_vector {
 
 /* The initial stack, reset, and the fourteen other exceptions of the core. */
 __attribute__((section(".vectors.core"), used)) static const core_vector core_vectors[16] = {
-    {.stack = el_stack_end},     {.handler = reset},          {.handler = el_fault_entry}, {.handler = el_fault_entry},
-    {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry},
-    {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry},
-    {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry}, {.handler = el_fault_entry},
+    {.stack = el_stack_end},       {.handler = reset},          {.handler = el_fault_entry},
+    {.handler = el_fault_entry},   {.handler = el_fault_entry}, {.handler = el_fault_entry},
+    {.handler = el_fault_entry},   {.handler = el_fault_entry}, {.handler = el_fault_entry},
+    {.handler = el_fault_entry},   {.handler = el_fault_entry}, {.handler = el_fault_entry},
+    {.handler = el_fault_entry},   {.handler = el_fault_entry}, {.handler = el_fault_entry},
+    {.handler = el_systick_entry},
 };

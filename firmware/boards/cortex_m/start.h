@@ -27,4 +27,7 @@ _Noreturn void el_fault(const el_fault_frame *frame, uint32_t number);
 /* Any interrupt that nobody serves ends in el_fault; for `.vectors.irq`. */
 void el_fault_entry(void);
 
+/* The core's timer; el_fault_entry unless a board has a handler (systick.c). */
+void el_systick_entry(void);
+
 #endif

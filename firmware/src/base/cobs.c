@@ -40,11 +40,12 @@ void el_cobs_init(el_cobs_encoder *encoder, uint8_t *bytes, uint16_t capacity)
     *encoder = (el_cobs_encoder){.bytes = bytes, .capacity = capacity};
 }
 
-/* Each byte costs two at most: itself, and the code byte of a block that it opens. One is kept for the final 00. */
+/* A byte costs itself, or as a 00 the code byte of the block that it opens; the first may find a full block and cost one
+ * more, and so may each 254th after it. So n bytes cost at most n + 1 + (n - 1) / 254. One is kept for the final 00. */
 static size_t room_behind(const el_cobs_encoder *encoder, size_t used)
 {
     size_t left = encoder->capacity - used;
-    return left < 3 ? 0 : (left - 1) / 2;
+    return left < 3 ? 0 : left - 2 - left / 254;
 }
 
 size_t el_cobs_room(const el_cobs_encoder *encoder)

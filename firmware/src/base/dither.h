@@ -25,8 +25,19 @@ static inline uint32_t el_dither(uint32_t value_q16, uint32_t levels, uint32_t t
     return (value_q16 * levels + threshold_q16) >> 16; /* below 2^24 + 2^16 */
 }
 
-/* One line of RGB565 as 4-bit grey, two pixels per byte, the left one in the upper half; luma by ITU-R BT.601, 3.5.1:
- * 0.299 R + 0.587 G + 0.114 B. `grey` takes (width + 1) / 2 bytes; `y` is the line on the screen. */
+/* Luma by ITU-R BT.601, 3.5.1: 0.299 R + 0.587 G + 0.114 B. The weights over the channels' largest values. */
+enum { EL_LUMA_RED_Q24 = 161819, EL_LUMA_GREEN_Q24 = 156321, EL_LUMA_BLUE_Q24 = 61697 };
+
+/* 0..1 in Q16. */
+static inline uint32_t el_luma_q16(uint16_t rgb565)
+{
+    const uint32_t sum_q24 = (uint32_t)(rgb565 >> 11) * EL_LUMA_RED_Q24 + ((rgb565 >> 5) & 63U) * EL_LUMA_GREEN_Q24 +
+                             (rgb565 & 31U) * EL_LUMA_BLUE_Q24;
+    return sum_q24 >> 8;
+}
+
+/* One line of RGB565 as 4-bit grey, two pixels per byte, the left one in the upper half. `grey` takes
+ * (width + 1) / 2 bytes; `y` is the line on the screen. */
 void el_dither_grey4(uint8_t *grey, const uint16_t *rgb565, uint32_t width, uint32_t y);
 
 /* One line of RGB565 as single bits, 1 is light, the left pixel in the highest bit; `bits` takes (width + 7) / 8 bytes.

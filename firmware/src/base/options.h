@@ -51,14 +51,8 @@
 #define EL_WITH_CARRY 1
 #endif
 
-/* A mesh whose bounding sphere is beside the view is skipped whole. Without, only one that lies before the near plane or
- * beyond the far one: slower where much is out of sight. */
-#ifndef EL_WITH_CULLING
-#define EL_WITH_CULLING 1
-#endif
-
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
-     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_CULLING) &                                                                \
+     EL_WITH_STATS | EL_WITH_CARRY) &                                                                                  \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
 #endif

@@ -73,7 +73,7 @@ typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
     uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
     uint16_t band_lines;   /* lines per band, 1..height */
-    uint16_t background;   /* RGB565 */
+    uint16_t background;   /* RGB565; may be changed in the renderer between frames */
     uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; 0: 3, an eighth */
     void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
@@ -106,7 +106,8 @@ el_status el_init(el_renderer *renderer, const el_config *config);
 el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
- * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or a light without normals. EL_ERROR_RANGE: the
+ * EL_ERROR_MATERIAL: textured without texture or texture coordinates, a light without normals, or what
+ * base/options.h leaves out. EL_ERROR_RANGE: the
  * pose or the mesh leaves the world, or the mesh is too large for so narrow a view; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
  * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);

@@ -62,7 +62,7 @@ static void cut(const el_transform *transform, const el_clip_corner *a, int64_t 
     if (plane > PLANE_FAR) {
         put_onto(transform, &corner->position, plane);
     }
-    for (unsigned i = 0; i < EL_CLIP_ATTRIBUTES; i++) {
+    for (int i = 0; i < EL_CLIP_ATTRIBUTES; i++) {
         corner->attributes[i] = mix(a->attributes[i], b->attributes[i], t_q31);
     }
 }

@@ -10,11 +10,18 @@ _Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a
 /* Position of models and cameras, Q16.16: +-16384 units. */
 #define MAX_POSITION_Q16 (1 << 30)
 
+/* value_q32 >= 1 */
 static el_factor factor_from_q32(uint64_t value_q32)
 {
-    const int shift = el_bit_length_u64(value_q32) - 31;
-    const uint64_t mantissa = shift >= 0 ? value_q32 >> shift : value_q32 << -shift;
-    return (el_factor){.mantissa = (uint32_t)mantissa, .exponent = (int16_t)(32 - shift)};
+    el_factor factor = {.exponent = 32};
+    for (; value_q32 >> 31 != 0; value_q32 >>= 1) {
+        factor.exponent--;
+    }
+    for (; value_q32 >> 30 == 0; value_q32 <<= 1) {
+        factor.exponent++;
+    }
+    factor.mantissa = (uint32_t)value_q32;
+    return factor;
 }
 
 /* The guard band about the screen's middle: half the size, times 1 + 2^shift, at most EL_GUARD_PX from the origin. */
@@ -95,22 +102,23 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
         numerator = 1U << 17;
         denominator = camera->height_q16;
     }
-    const uint64_t focal_q32 = divide((uint64_t)numerator << 32, denominator);
-    const uint64_t focal_x_q32 = aspect != 0 ? divide(focal_q32 << 16, aspect) : divide(focal_q32 * height, width);
+    uint64_t focal_q32[2];
+    focal_q32[1] = divide((uint64_t)numerator << 32, denominator);
+    focal_q32[0] = divide(focal_q32[1] * (aspect != 0 ? 1U << 16 : height), aspect != 0 ? aspect : width);
 
     memcpy(view->axes_q30, camera->axes_q30, sizeof view->axes_q30);
     memcpy(view->position_q16, camera->position_q16, sizeof view->position_q16);
     view->projection = camera->projection;
-    view->focal[0] = factor_from_q32(focal_x_q32);
-    view->focal[1] = factor_from_q32(focal_q32);
     view->near_q16 = near;
     view->far_q16 = far;
     /* far >= 9/8 near, so far / (far - near) <= 9 and the scale is at most 65534 * 9 * 2^12 < 2^32. */
     view->depth_scale_q12 = (uint32_t)divide(((uint64_t)EL_DEPTH_MAX * far) << 12, far - near);
     view->size[0] = width;
     view->size[1] = height;
-    view->guard_shift[0] = guard_shift(width);
-    view->guard_shift[1] = guard_shift(height);
+    for (unsigned i = 0; i < 2; i++) {
+        view->focal[i] = factor_from_q32(focal_q32[i]);
+        view->guard_shift[i] = guard_shift(view->size[i]);
+    }
     return EL_OK;
 }
 
@@ -226,7 +234,7 @@ static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el
 {
     static const el_form constant = {.at = {0, 0, 0, (int64_t)1 << FORM_BITS}};
     const el_form *const w = is_orthographic(view) ? &constant : &forms[2];
-    for (unsigned i = EL_WITH_CULLING ? 0 : 4; i < 6; i++) {
+    for (unsigned i = 0; i < 6; i++) {
         const el_factor factor = factors[i / 2];
         const int shift = el_max_i32(1, 32 - factor.exponent);
         const bool upper = (i & 1U) != 0;
@@ -382,21 +390,19 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     return vertex;
 }
 
-/* v < -w * 2^shift */
-static bool is_below(int32_t v, int32_t w, unsigned shift)
-{
-    return v >> shift < -w; /* -w is whole: so is less what rounds down to less */
-}
-
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
 {
     unsigned code = 0;
     code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
     code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    const int32_t values[4] = {vertex->x, -vertex->x, vertex->y, -vertex->y};
+    const int32_t least = -vertex->w;
+    const int32_t values[4] = {vertex->x, -vertex->x, vertex->y, -vertex->y}; /* within +-2^30, as w is */
     for (unsigned i = 0; i < 4; i++) {
-        code |= is_below(values[i], vertex->w, 0) ? (unsigned)EL_CODE_LEFT << i : 0U;
-        code |= is_below(values[i], vertex->w, transform->guard_shift[i / 2]) ? EL_CODE_GUARD : 0U;
+        if (values[i] < least) {
+            code |= (unsigned)EL_CODE_LEFT << i;
+            /* Less than least * 2^shift: so is, before a whole number, what rounds down to less than it. */
+            code |= values[i] >> transform->guard_shift[i / 2] < least ? EL_CODE_GUARD : 0U;
+        }
     }
     return (uint8_t)code;
 }

@@ -117,11 +117,16 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     }
 }
 
-/* Truncated towards zero; by an unsigned division, of which the rest of the renderer has one too. */
-static int32_t step_of(int32_t way_q16, uint32_t pixels)
+/* Truncated towards zero. */
+static int32_t step_of(int32_t way_q16, int32_t pixels)
 {
-    const uint32_t step = (way_q16 < 0 ? 0U - (uint32_t)way_q16 : (uint32_t)way_q16) / pixels;
+#if EL_SMALL_CODE || defined(__ARM_ARCH_6M__)
+    /* Without a divider, by the unsigned division that the rest of the renderer has too. */
+    const uint32_t step = (way_q16 < 0 ? 0U - (uint32_t)way_q16 : (uint32_t)way_q16) / (uint32_t)pixels;
     return way_q16 < 0 ? -(int32_t)step : (int32_t)step;
+#else
+    return way_q16 / pixels;
+#endif
 }
 
 int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left)
@@ -157,8 +162,8 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
     walk->length = (uint8_t)(i < 0 ? 0 : i);
 
     exact(walk, triangle, (uint32_t)length, &walk->next_u_q16, &walk->next_v_q16);
-    walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, (uint32_t)length);
-    walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, (uint32_t)length);
+    walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, length);
+    walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, length);
     return length;
 }
 

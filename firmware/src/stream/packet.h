@@ -28,7 +28,8 @@ enum {
     EL_PACKET_KEY = 0x06,
     EL_PACKET_PING = 0x07,
     EL_PACKET_STOP = 0x08,
-    EL_PACKET_LOG = 0x09
+    EL_PACKET_LOG = 0x09,
+    EL_PACKET_INPUT = 0x0A
 };
 
 enum {

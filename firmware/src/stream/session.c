@@ -10,21 +10,26 @@ enum {
     MODE_BLOCK = 0,
     PIXEL_FORMAT_RGB565 = 1,
     PROTOCOL_MAJOR = 1,
-    PROTOCOL_MINOR = 0,
+    PROTOCOL_MINOR = 1,
     HELLO_FIXED_BYTES = 28 + 2, /* the two length bytes included */
     HELLO_MAX_BYTES = HELLO_FIXED_BYTES + 2 * EL_STREAM_MAX_NAME_BYTES,
     START_BYTES = 6,
     ACK_BYTES = 3,
     KEY_BYTES = 4,
+    INPUT_BYTES = 5,
     MAX_CREDITS = 255,
+    EMPTY_QUEUE_COST =
+        2 + 2 + 1, /* 00s around a packet of up to 254 bytes, its code byte, and what el_cobs_room spares */
     READ_BYTES = 32,
     READS_PER_POLL = 8 /* a host that floods the link does not stop the device */
 };
 
 _Static_assert(EL_STREAM_WIRE_BYTES >= (int)EL_COBS_ENCODER_MIN_BYTES, "the queue must hold an open block");
-_Static_assert((EL_STREAM_WIRE_BYTES - 3) / 2 >= HELLO_MAX_BYTES + EL_PACKET_OVERHEAD_BYTES,
+_Static_assert(EL_STREAM_WIRE_BYTES <= UINT16_MAX, "the queue counts in 16 bits");
+_Static_assert(EL_COBS_ENCODER_MIN_BYTES >= HELLO_MAX_BYTES + EL_PACKET_OVERHEAD_BYTES + EMPTY_QUEUE_COST,
                "HELLO is sent without waiting: it must fit into an empty queue");
-_Static_assert((EL_STREAM_WIRE_BYTES - 3) / 2 >= EL_STREAM_MAX_LOG_BYTES + EL_PACKET_OVERHEAD_BYTES, "so is LOG");
+_Static_assert(EL_COBS_ENCODER_MIN_BYTES >= EL_STREAM_MAX_LOG_BYTES + EL_PACKET_OVERHEAD_BYTES + EMPTY_QUEUE_COST,
+               "so is LOG");
 _Static_assert(EL_STREAM_PACKET_BYTES(EL_STREAM_MAX_SIZE) <= UINT16_MAX, "HELLO states it in 16 bits");
 
 static uint32_t now_us(const el_stream *stream)
@@ -45,10 +50,23 @@ static void lose_link(el_stream *stream)
 static void wait_for_start(el_stream *stream)
 {
     stream->frame.sending = false;
-    if (!stream->config.one_way) {
-        stream->state = EL_STREAM_WAITING;
-        stream->credits = 0;
-        stream->hello_us = now_us(stream);
+    stream->state = EL_STREAM_WAITING;
+    stream->credits = 0;
+    stream->hello_us = now_us(stream);
+}
+
+/* The link takes too little. What is said about it waits in the queue until it takes something again. */
+static void give_up(el_stream *stream)
+{
+    el_packet_tear(&stream->writer);
+    stream->stalls++;
+    stream->notice = "the link stalled: what was on its way was given up";
+    if (stream->config.one_way) {
+        stream->frame.sending = false;
+        stream->stalled = true;
+        stream->hello_due = true;
+    } else {
+        wait_for_start(stream);
     }
 }
 
@@ -98,12 +116,26 @@ static void take_key(el_stream *stream, const uint8_t *body)
     el_stream_make_due(stream, y0, y1 < height ? y1 : height);
 }
 
+static void take_input(el_stream *stream, const uint8_t *body)
+{
+    const el_stream_config *config = &stream->config;
+    uint32_t value = el_packet_get_u16(body + 1) | (uint32_t)el_packet_get_u16(body + 3) << 16;
+
+    if (config->input != NULL) {
+        stream->input_came = true;
+        config->input(config->input_context, body[0], (int32_t)value);
+    }
+}
+
 static void take_packet(el_stream *stream, const el_packet *packet)
 {
     static const struct {
         uint8_t type;
         uint8_t body_bytes;
-    } shortest[] = {{EL_PACKET_START, START_BYTES}, {EL_PACKET_ACK, ACK_BYTES}, {EL_PACKET_KEY, KEY_BYTES}};
+    } shortest[] = {{EL_PACKET_START, START_BYTES},
+                    {EL_PACKET_ACK, ACK_BYTES},
+                    {EL_PACKET_KEY, KEY_BYTES},
+                    {EL_PACKET_INPUT, INPUT_BYTES}};
 
     for (size_t i = 0; i < sizeof shortest / sizeof shortest[0]; i++) {
         if (packet->type == shortest[i].type && packet->body_bytes < shortest[i].body_bytes) {
@@ -121,6 +153,9 @@ static void take_packet(el_stream *stream, const el_packet *packet)
         break;
     case EL_PACKET_KEY:
         take_key(stream, packet->body);
+        break;
+    case EL_PACKET_INPUT:
+        take_input(stream, packet->body);
         break;
     case EL_PACKET_PING:
         stream->hello_due = true;
@@ -185,28 +220,43 @@ bool el_stream_push(el_stream *stream)
     return stream->state != EL_STREAM_GONE;
 }
 
-bool el_stream_flush(el_stream *stream)
+static size_t bytes_to_push(const el_stream *stream)
 {
-    const el_port *port = stream->config.port;
-    uint32_t progress_us = now_us(stream);
-    size_t before;
-    size_t after;
+    size_t count;
+    (void)el_cobs_final(&stream->writer.wire, &count);
+    return count;
+}
 
-    el_cobs_final(&stream->writer.wire, &after);
-    while (stream->state != EL_STREAM_GONE && after > 0) {
-        before = after;
-        if (!el_stream_push(stream)) {
-            break;
-        }
-        el_cobs_final(&stream->writer.wire, &after);
-        if (after < before) {
-            progress_us = now_us(stream);
+/* The bytes first: time must be able to use up all that they earn, or a byte now and then would do for ever. */
+static void spend_patience(el_stream *stream, uint32_t us, size_t bytes_taken)
+{
+    uint32_t earned = EL_STREAM_BYTE_US * (uint32_t)bytes_taken; /* a queue's worth, below 2^27 */
+    uint32_t patience = stream->patience_us + earned;
+
+    patience = patience < EL_STREAM_PATIENCE_US ? patience : EL_STREAM_PATIENCE_US;
+    stream->patience_us = patience > us ? patience - us : 0;
+}
+
+/* Waits until the port has taken everything, or as long as there is patience. */
+static bool drain(void *context)
+{
+    el_stream *stream = context;
+    const el_port *port = stream->config.port;
+    uint32_t last_us = now_us(stream);
+    size_t left = bytes_to_push(stream);
+
+    while (left > 0 && el_stream_push(stream)) {
+        size_t took = left - bytes_to_push(stream);
+        uint32_t now = now_us(stream);
+        spend_patience(stream, now - last_us, took);
+        last_us = now;
+        left -= took;
+        if (took > 0 && stream->patience_us > 0) {
             continue;
         }
         receive(stream);
-        if (now_us(stream) - progress_us >= EL_STREAM_PATIENCE_US) {
-            el_packet_tear(&stream->writer);
-            wait_for_start(stream);
+        if (stream->state != EL_STREAM_GONE && left > 0 && stream->patience_us == 0) {
+            give_up(stream);
             return false;
         }
         if (port->wait != NULL) {
@@ -216,9 +266,12 @@ bool el_stream_flush(el_stream *stream)
     return stream->state != EL_STREAM_GONE;
 }
 
-static bool drain(void *context)
+bool el_stream_flush(el_stream *stream)
 {
-    return el_stream_flush(context);
+    if (!stream->frame.sending) {
+        stream->patience_us = EL_STREAM_PATIENCE_US;
+    }
+    return drain(stream);
 }
 
 /* strlen, which a freestanding board need not have; EL_STREAM_MAX_LOG_BYTES at most. */
@@ -242,7 +295,11 @@ static void send_hello(el_stream *stream)
 {
     const el_stream_config *config = &stream->config;
     el_packet_writer *writer = &stream->writer;
+    uint32_t capabilities = EL_STREAM_RAW | EL_STREAM_RUNS;
 
+    if (!config->one_way) {
+        capabilities |= EL_STREAM_PARTIAL | (config->input != NULL ? EL_STREAM_INPUT : 0U);
+    }
     el_packet_begin(writer, EL_PACKET_HELLO);
     el_packet_put(writer, "EDGL", 4);
     el_packet_put_u8(writer, PROTOCOL_MAJOR);
@@ -253,7 +310,7 @@ static void send_hello(el_stream *stream)
     el_packet_put_u8(writer, 0);
     el_packet_put_u16(writer, 0); /* lines are left out whole */
     el_packet_put_u16(writer, (uint16_t)EL_STREAM_PACKET_BYTES(config->width));
-    el_packet_put_u32(writer, EL_STREAM_RAW | EL_STREAM_RUNS | (config->one_way ? 0 : EL_STREAM_PARTIAL));
+    el_packet_put_u32(writer, capabilities);
     el_packet_put_u32(writer, config->max_baud);
     el_packet_put_u32(writer, config->boot_id);
     put_name(writer, config->target);
@@ -341,20 +398,21 @@ int el_stream_poll(el_stream *stream)
     if (stream->state != EL_STREAM_GONE) {
         receive(stream);
     }
-    if (stream->state == EL_STREAM_RUNNING && stream->credits == 0 &&
+    if (stream->state == EL_STREAM_RUNNING && !stream->config.one_way && stream->credits == 0 &&
         now_us(stream) - stream->heard_us >= EL_STREAM_PATIENCE_US) {
         wait_for_start(stream);
     }
     if (stream->state != EL_STREAM_GONE) {
         send_pending(stream);
         el_stream_push(stream);
+        stream->stalled = stream->stalled && (stream->hello_due || bytes_to_push(stream) > 0);
     }
     return stream->state == EL_STREAM_GONE ? EL_STREAM_LINK_GONE : 0;
 }
 
 bool el_stream_ready(const el_stream *stream)
 {
-    return stream->state == EL_STREAM_RUNNING && (stream->credits > 0 || stream->config.one_way) &&
+    return stream->state == EL_STREAM_RUNNING && (stream->config.one_way ? !stream->stalled : stream->credits > 0) &&
            (stream->period_us == 0 || now_us(stream) - stream->frame_us >= stream->period_us);
 }
 

@@ -1,11 +1,18 @@
 /* The device's end of a stream: who listens, what they are owed, and what the link takes.
  *
  * Wiring: el_stream_init with a port and memory, el_stream_sink (sink.h) among the renderer's sinks, el_stream_poll in
- * idle loops. Everything runs in the caller's thread and nothing blocks for ever: a call waits for the link at most
- * EL_STREAM_PATIENCE_US after the last byte that the link took.
+ * idle loops. Everything runs in the caller's thread, and the link cannot hold it for ever. What waits has a patience of
+ * EL_STREAM_PATIENCE_US, which time uses up and each byte that the link takes restores by EL_STREAM_BYTE_US, up to the
+ * full patience; when it is at its end the frame is given up. Each frame, and each call outside of one, begins with the
+ * full patience. So a frame of W bytes on the wire holds the renderer for at most
+ *
+ *     EL_STREAM_PATIENCE_US + W * EL_STREAM_BYTE_US
+ *
+ * and one call of el_port.wait; a link that takes nothing, or next to nothing, for a second, and once: frames are not
+ * sent to it again before it brings a START. Input costs at most 256 bytes a poll, whatever arrives.
  *
  *     WAITING   no host. HELLO once a second and as the answer to PING. Frames are not looked at.
- *        | START                        ^ STOP; no byte taken for 1 s; no credits and nothing heard for 1 s
+ *        | START                        ^ STOP; patience at its end; no credits and nothing heard for 1 s
  *        v                              |
  *     RUNNING   frames are sent as long as there are credits; every line of the first.
  *
@@ -18,7 +25,7 @@
  *
  * With `one_way` there is no host to listen to (a pipe, a UART without RX): the session is RUNNING from the start with
  * endless credits, HELLO comes once a second between packets, and each frame has all lines, so that a reader may begin
- * anywhere. Input is not read. A frame that is abandoned because the link took nothing is followed by the next one. */
+ * anywhere. Input is not read. After a frame that was given up none is sent before the link has taken a HELLO. */
 #ifndef EL_STREAM_SESSION_H
 #define EL_STREAM_SESSION_H
 
@@ -36,17 +43,32 @@ extern "C" {
 
 enum {
     EL_STREAM_PATIENCE_US = 1000000, /* all of the session's time limits, and the time between two HELLO */
-    EL_STREAM_MAX_SIZE = 2040,       /* width and height, in pixels */
+    EL_STREAM_BYTE_US = 2000,  /* 500 bytes/s keep a link alive: half of what 9,600 baud take, the slowest in use */
+    EL_STREAM_MAX_SIZE = 2040, /* width and height, in pixels */
     EL_STREAM_MAX_NAME_BYTES = 64,
     EL_STREAM_MAX_LOG_BYTES = 200,
     EL_STREAM_BAND_HEADER_BYTES = 8,
-    EL_STREAM_WIRE_BYTES = 512,  /* the queue to the port: two blocks of COBS, and HELLO or LOG at once */
     EL_STREAM_REFRESH_LINES = 2, /* sent with each frame, in turn, whatever they hold: a line that changed without a
                                     change of its CRC is wrong for height/2 frames at most */
     EL_STREAM_RAW = 1,           /* codecs, as START and HELLO have them */
     EL_STREAM_RUNS = 2,
-    EL_STREAM_PARTIAL = 256 /* capability: unchanged lines are left out */
+    EL_STREAM_PARTIAL = 256, /* capability: unchanged lines are left out */
+    EL_STREAM_INPUT = 512    /* capability: the device takes INPUT */
 };
+
+/* What INPUT sets. A device ignores controls and values that it does not know; 1..127 are the protocol's, 128..255
+ * a program's own. */
+enum {
+    EL_CONTROL_SCENE = 1, /* index into the device's scenes; the scene begins at frame 0 */
+    EL_CONTROL_FRAME = 2, /* number of the scene's next frame */
+    EL_CONTROL_PAUSE = 3  /* 1: the scene stays at its frame, which is drawn again and again; 0: it goes on */
+};
+
+/* The queue to the port, in bytes; defined for all files alike where memory is scarce: 260 do, more let the port take more
+ * at once. */
+#ifndef EL_STREAM_WIRE_BYTES
+#define EL_STREAM_WIRE_BYTES 512
+#endif
 
 /* The largest packet before COBS: about 1 KB, since longer ones gain little and cost more when they are damaged; and
  * one line, whatever it holds. */
@@ -81,7 +103,12 @@ typedef struct el_stream_config {
     uint32_t boot_id;     /* another one after each start */
     uint32_t max_baud;    /* highest rate of the link, 0 when it has none */
     bool one_way;         /* see above */
-    void *memory;         /* the stream's as long as it is used; any alignment */
+    /* What the host sets, as it arrives: within el_stream_poll, the sink's functions and whatever else waits for the
+     * link, in the middle of a frame too. To be noted for the next frame; may not call the stream or the renderer.
+     * NULL: the device takes no INPUT. */
+    void (*input)(void *context, uint8_t control, int32_t value);
+    void *input_context;
+    void *memory; /* the stream's as long as it is used; any alignment */
     size_t memory_bytes;
 } el_stream_config;
 
@@ -97,7 +124,8 @@ typedef struct el_stream_frame {
     uint32_t wire_bytes; /* of its bands */
 } el_stream_frame;
 
-/* One session. The caller owns it and gives it to the functions below; state, credits, damaged and missed may be read. */
+/* One session. The caller owns it and gives it to the functions below; state, credits, stalls, damaged and missed may be
+ * read. */
 typedef struct el_stream {
     el_stream_config config;
     el_packet_writer writer;
@@ -109,19 +137,23 @@ typedef struct el_stream {
     uint8_t *tokens;     /* of the band that is being encoded */
 
     uint8_t state;
-    uint8_t credits;    /* frames that may be sent */
-    uint8_t next_seq;   /* expected from the host */
-    bool hello_due;     /* at the next chance between two packets */
-    uint16_t codecs;    /* EL_STREAM_RAW, EL_STREAM_RUNS: what the host decodes */
-    uint16_t dropped;   /* frames not sent since the last one that was, or since START; stops at 65535 */
-    uint16_t refresh;   /* the next line of EL_STREAM_REFRESH_LINES */
-    const char *notice; /* to be sent as LOG, between two packets */
-    uint32_t period_us; /* between two frames, at least */
-    uint32_t frame_us;  /* when the last frame was due */
-    uint32_t hello_us;  /* when the last HELLO was due */
-    uint32_t heard_us;  /* the last sign of the host, or the last frame's end */
-    uint32_t damaged;   /* chunks of input that were no packets */
-    uint32_t missed;    /* packets of the host that never came, by their seq */
+    uint8_t credits;      /* frames that may be sent */
+    uint8_t next_seq;     /* expected from the host */
+    bool hello_due;       /* at the next chance between two packets */
+    bool input_came;      /* since the sink's last `begin` was called */
+    bool stalled;         /* a one-way link that has not taken a HELLO since its last frame was given up */
+    uint16_t codecs;      /* EL_STREAM_RAW, EL_STREAM_RUNS: what the host decodes */
+    uint16_t dropped;     /* frames not sent since the last one that was, or since START; stops at 65535 */
+    uint16_t refresh;     /* the next line of EL_STREAM_REFRESH_LINES */
+    const char *notice;   /* to be sent as LOG, between two packets */
+    uint32_t period_us;   /* between two frames, at least */
+    uint32_t frame_us;    /* when the last frame was due */
+    uint32_t hello_us;    /* when the last HELLO was due */
+    uint32_t heard_us;    /* the last sign of the host, or the last frame's end */
+    uint32_t patience_us; /* left for the frame under way, or the call */
+    uint32_t stalls;      /* times that patience was at its end */
+    uint32_t damaged;     /* chunks of input that were no packets */
+    uint32_t missed;      /* packets of the host that never came, by their seq */
     el_stream_frame frame;
 } el_stream;
 

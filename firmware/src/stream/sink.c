@@ -46,10 +46,11 @@ static void begin(void *context, uint16_t width, uint16_t height)
     el_stream *stream = context;
     el_stream_frame *frame = &stream->frame;
 
+    stream->input_came = false;
     el_stream_poll(stream);
     uint32_t now = now_us(stream);
     *frame = (el_stream_frame){.number = frame->number, .begin_us = now};
-    if (!el_stream_ready(stream)) {
+    if (!el_stream_ready(stream) || stream->input_came) { /* this frame was chosen before the input came */
         return;
     }
     if (width != stream->config.width || height != stream->config.height) {
@@ -57,6 +58,7 @@ static void begin(void *context, uint16_t width, uint16_t height)
         return;
     }
     frame->sending = true;
+    stream->patience_us = EL_STREAM_PATIENCE_US;
     if (stream->config.one_way) {
         el_stream_make_due(stream, 0, height);
     } else {
@@ -182,7 +184,7 @@ static void send_frame_end(el_stream *stream, const el_stats *stats)
     el_packet_put_u32(writer, el_crc32(0, stream->line_crcs, 4 * (size_t)stream->config.height));
     el_packet_put_u8(writer, EL_STATS_COUNT);
     el_packet_put(writer, stats, sizeof *stats);
-    if (el_packet_end(writer) > 0) {
+    if (el_packet_end(writer) > 0 && frame->sending) {
         el_stream_flush(stream);
     }
 }

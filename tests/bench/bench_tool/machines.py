@@ -14,6 +14,7 @@ from pathlib import Path
 
 BENCH = Path(__file__).resolve().parents[1]
 ROOT = BENCH.parents[1]
+TOOLCHAIN = ROOT / "firmware" / "boards" / "cortex_m" / "arm-none-eabi.cmake"
 
 # Core, and the QEMU machine that runs it: a Cortex-M3 runs what is compiled for a Cortex-M0+.
 CORES = {"cortex-m0plus": "mps2-an385", "cortex-m4f": "mps2-an386"}
@@ -156,7 +157,7 @@ class Machines:
             command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
             command += ["-DCMAKE_C_FLAGS_RELEASE=-O2", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
             if core != "native":
-                command += [f"-DCMAKE_TOOLCHAIN_FILE={BENCH / 'target' / 'toolchain.cmake'}", f"-DBENCH_CORE={core}"]
+                command += [f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}", f"-DEDGELINE_CPU={core}"]
             output_of(command)
             self._configured[str(tree)] = tree
         output_of(["cmake", "--build", tree, "--parallel", str(os.cpu_count() or 1), "--target", program])

@@ -1,0 +1,72 @@
+# What the folders of all boards share: how a program is linked and what comes out beside it.
+#
+#   edgeline_program(NAME SCRIPT FILE SOURCES FILE... [LIBRARIES TARGET...])
+#       NAME.elf in the build folder, with NAME.map and NAME.bin, linked by the script; the build prints what each memory
+#       region has in use, and the bytes of each section. The sources are the board's own and, on a Cortex-M,
+#       ${EDGELINE_CORTEX_M_SOURCES}.
+#   edgeline_demo(SCRIPT FILE SOURCES FILE... PANEL NAME ROTATION DEGREES BAND LINES MEMORY BYTES [SCENE NAME])
+#       The program edgeline-demo of firmware/apps/demo. PANEL and ROTATION are what the board has by default; EDGELINE_PANEL
+#       and EDGELINE_ROTATION choose others. MEMORY is what renderer and stream share. SCENE is the one at the start, "demo"
+#       unless it is named.
+include_guard(GLOBAL)
+
+set(EDGELINE_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
+set(EDGELINE_CORTEX_M_SOURCES ${EDGELINE_BOARDS_DIR}/cortex_m/start.c ${EDGELINE_BOARDS_DIR}/cortex_m/fault.c)
+
+string(REGEX REPLACE "gcc$" "size" edgeline_size ${CMAKE_C_COMPILER})
+
+set(EDGELINE_PANEL "" CACHE STRING "Panel of the demo; empty: the board's own")
+set(EDGELINE_ROTATION "" CACHE STRING "How the panel is turned, degrees; empty: the board's own")
+set(edgeline_tft_panels ili9341 st7789 st7789-240x240 st7735)
+set(edgeline_oled_panels ssd1306 ssd0323)
+set_property(CACHE EDGELINE_PANEL PROPERTY STRINGS "" ${edgeline_tft_panels} ${edgeline_oled_panels})
+set_property(CACHE EDGELINE_ROTATION PROPERTY STRINGS "" 0 90 180 270)
+
+function(edgeline_program name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "SCRIPT" "SOURCES;LIBRARIES")
+    cmake_path(ABSOLUTE_PATH arg_SCRIPT)
+    set(base ${CMAKE_BINARY_DIR}/${name})
+    add_executable(${name} ${arg_SOURCES})
+    set_target_properties(${name} PROPERTIES
+        SUFFIX .elf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}
+        LINK_DEPENDS "${arg_SCRIPT};${EDGELINE_BOARDS_DIR}/cortex_m/sections.ld")
+    target_include_directories(${name} PRIVATE ${EDGELINE_BOARDS_DIR})
+    target_link_libraries(${name} PRIVATE edgeline ${arg_LIBRARIES} edgeline_flags)
+    target_link_options(${name} PRIVATE
+        -L ${EDGELINE_BOARDS_DIR}/cortex_m -T ${arg_SCRIPT} -Wl,-Map=${base}.map -Wl,--print-memory-usage -Wl,--fatal-warnings)
+    add_custom_command(TARGET ${name} POST_BUILD
+        COMMAND ${CMAKE_OBJCOPY} -O binary ${base}.elf ${base}.bin
+        COMMAND ${CMAKE_COMMAND} -D SIZE=${edgeline_size} -D PROGRAM=${base}.elf -P ${EDGELINE_BOARDS_DIR}/print_sizes.cmake
+        BYPRODUCTS ${base}.bin ${base}.map VERBATIM)
+endfunction()
+
+function(edgeline_demo)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SCRIPT;PANEL;ROTATION;BAND;MEMORY;SCENE" "SOURCES")
+    if(NOT DEFINED arg_SCENE)
+        set(arg_SCENE demo)
+    endif()
+    foreach(choice PANEL ROTATION)
+        if(NOT EDGELINE_${choice} STREQUAL "")
+            set(arg_${choice} ${EDGELINE_${choice}})
+        endif()
+    endforeach()
+    if(NOT arg_ROTATION MATCHES "^(0|90|180|270)$")
+        message(FATAL_ERROR "EDGELINE_ROTATION is '${arg_ROTATION}', not one of 0, 90, 180, 270")
+    endif()
+    if(arg_PANEL IN_LIST edgeline_tft_panels)
+        set(panel_source panel_tft.c)
+    elseif(arg_PANEL IN_LIST edgeline_oled_panels)
+        set(panel_source panel_${arg_PANEL}.c)
+    else()
+        list(JOIN edgeline_tft_panels ", " tfts)
+        list(JOIN edgeline_oled_panels ", " oleds)
+        message(FATAL_ERROR "EDGELINE_PANEL is '${arg_PANEL}', not one of ${tfts}, ${oleds}")
+    endif()
+    string(REPLACE "-" "_" model ${arg_PANEL})
+    set(demo ${EDGELINE_BOARDS_DIR}/../apps/demo)
+    edgeline_program(edgeline-demo SCRIPT ${arg_SCRIPT} LIBRARIES edgeline_scenes
+        SOURCES ${arg_SOURCES} ${demo}/main.c ${demo}/${panel_source})
+    target_compile_definitions(edgeline-demo PRIVATE
+        EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_MODEL=el_${model} EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
+        EL_DEMO_BAND_LINES=${arg_BAND} EL_DEMO_MEMORY_BYTES=${arg_MEMORY})
+endfunction()

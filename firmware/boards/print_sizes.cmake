@@ -1,0 +1,12 @@
+# Prints the sections of a program that take memory on the chip: cmake -D SIZE=TOOL -D PROGRAM=FILE -P print_sizes.cmake
+execute_process(COMMAND ${SIZE} -A -d ${PROGRAM} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "\n" ";" lines "${text}")
+foreach(line IN LISTS lines)
+    if(line MATCHES "^\\.(debug|comment|stab)" OR NOT line MATCHES "^(\\.[a-z0-9_]+) +([1-9][0-9]*) ")
+        continue()
+    endif()
+    string(LENGTH "${CMAKE_MATCH_1}${CMAKE_MATCH_2}" taken)
+    math(EXPR fill "26 - ${taken}")
+    string(REPEAT " " ${fill} fill)
+    message(NOTICE "${CMAKE_MATCH_1}${fill}${CMAKE_MATCH_2}")
+endforeach()

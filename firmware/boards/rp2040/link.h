@@ -1,0 +1,13 @@
+/* The host's link: UART0 at 115,200 baud, 8 bits, no parity, one stop bit. */
+#ifndef EL_BOARDS_RP2040_LINK_H
+#define EL_BOARDS_RP2040_LINK_H
+
+#include "base/port.h"
+
+/* Called once, with the clocks running and UART0, timer, pins and pads out of reset. */
+const el_port *el_pico_link_start(void);
+
+/* The handler of UART0_IRQ. */
+void el_pico_link_interrupt(void);
+
+#endif

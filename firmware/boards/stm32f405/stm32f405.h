@@ -1,0 +1,27 @@
+/* The parts of this board. board.c starts them in this order: clocks, USART, display. */
+#ifndef EL_BOARDS_STM32F405_STM32F405_H
+#define EL_BOARDS_STM32F405_STM32F405_H
+
+#include <stdint.h>
+
+#include "board.h"
+
+/* What the clocks came to: 168 and 84 MHz, or 16 and 16 where the PLL does not start. */
+typedef struct el_stm32f405_clocks {
+    uint32_t core_hz;
+    uint32_t apb2_hz; /* of SPI1 and USART1 */
+} el_stm32f405_clocks;
+
+el_stm32f405_clocks el_stm32f405_clocks_start(void);
+
+enum { EL_STM32F405_BAUD = EDGELINE_BAUD }; /* a whole number of clocks within 0.2% up to 2 Mbit/s */
+
+extern const el_port el_stm32f405_port;
+void el_stm32f405_usart_start(el_stm32f405_clocks clocks);
+void el_stm32f405_usart1_entry(void);
+
+extern const el_bus el_stm32f405_bus;
+void el_stm32f405_display_start(void);
+void el_stm32f405_dma2_stream3_entry(void);
+
+#endif

@@ -1,0 +1,246 @@
+#include "panel/tft.h"
+
+#include <stddef.h>
+
+/* Commands: data sheets of ILI9341 (V1.11), ST7789V (V1.3) and ST7735 (V1.7), which agree about these. */
+enum {
+    CMD_SLEEP_OUT = 0x11,      /* 8.2.12; 9.1.12; 10.1.11 */
+    CMD_INVERSION_OFF = 0x20,  /* 8.2.15; 9.1.15; 10.1.14 */
+    CMD_INVERSION_ON = 0x21,   /* 8.2.16; 9.1.16; 10.1.15 */
+    CMD_DISPLAY_ON = 0x29,     /* 8.2.19; 9.1.19; 10.1.18 */
+    CMD_COLUMN_ADDRESS = 0x2A, /* 8.2.20; 9.1.20; 10.1.19 */
+    CMD_ROW_ADDRESS = 0x2B,    /* 8.2.21; 9.1.21; 10.1.20 */
+    CMD_MEMORY_WRITE = 0x2C,   /* 8.2.22; 9.1.22; 10.1.21 */
+    CMD_MEMORY_ACCESS = 0x36   /* 8.2.29; 9.1.28; 10.1.26 */
+};
+
+enum {
+    RESET_WAIT_MS = 120, /* 5 ms, or 120 ms before SLEEP OUT if the panel was awake; sections 15.4; 7.4.5; 9.16 */
+    SLEEP_OUT_MS = 120,  /* 5 ms before the next command, 120 ms before the panel's voltages are there */
+
+    NO_LINE = 0xFFFF, /* the frame has no window yet */
+    BLACK_PIXELS = 64
+};
+
+uint16_t el_tft_width(const el_tft *panel)
+{
+    return panel->lie.sideways ? panel->config.model->rows : panel->config.model->columns;
+}
+
+uint16_t el_tft_height(const el_tft *panel)
+{
+    return panel->lie.sideways ? panel->config.model->columns : panel->config.model->rows;
+}
+
+static void send(const el_bus *bus, uint8_t code, const uint8_t *parameters, size_t count)
+{
+    bus->command(bus->context, code, parameters, count);
+}
+
+static void send_entry(const el_bus *bus, const el_tft_command *command)
+{
+    send(bus, command->code, command->parameters, command->count);
+}
+
+/* MX and MY belong to the memory's columns and rows, whichever of them are the viewer's x and y. */
+static uint8_t memory_access(const el_tft *panel)
+{
+    const el_orientation lie = panel->lie;
+    uint8_t access = panel->config.model->access;
+    if (lie.sideways) {
+        access ^= EL_TFT_ACCESS_MV;
+    }
+    if (lie.sideways ? lie.y_reversed : lie.x_reversed) {
+        access ^= EL_TFT_ACCESS_MX;
+    }
+    if (lie.sideways ? lie.x_reversed : lie.y_reversed) {
+        access ^= EL_TFT_ACCESS_MY;
+    }
+    if (panel->config.rgb_order) {
+        access ^= EL_TFT_ACCESS_BGR;
+    }
+    return access;
+}
+
+/* Where the glass begins: addresses count from the other end of the memory where the walk is reversed. */
+static void place_glass(el_tft *panel, uint8_t access)
+{
+    const el_tft_model *const model = panel->config.model;
+    const uint16_t column = (access & EL_TFT_ACCESS_MX) != 0
+                                ? (uint16_t)(model->memory_columns - model->first_column - model->columns)
+                                : model->first_column;
+    const uint16_t row = (access & EL_TFT_ACCESS_MY) != 0
+                             ? (uint16_t)(model->memory_rows - model->first_row - model->rows)
+                             : model->first_row;
+    panel->first_x = panel->lie.sideways ? row : column;
+    panel->first_y = panel->lie.sideways ? column : row;
+}
+
+static void choose_transfer(el_tft *panel)
+{
+    const el_bus *const bus = panel->config.bus;
+    const bool high_first = panel->config.byte_order == EL_HIGH_BYTE_FIRST;
+    const bool memory_high_first = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    panel->words = bus->pixels != NULL && (high_first || bus->bytes == NULL);
+    panel->swap = high_first != (panel->words || memory_high_first); /* words go high byte first */
+}
+
+static bool is_possible(const el_tft_config *config)
+{
+    const el_bus *const bus = config->bus;
+    return bus != NULL && bus->reset != NULL && bus->command != NULL && bus->delay_ms != NULL &&
+           (bus->pixels != NULL || bus->bytes != NULL) && config->model != NULL &&
+           el_panel_has_rotation(config->rotation) &&
+           (config->byte_order == EL_HIGH_BYTE_FIRST ||
+            (config->byte_order == EL_LOW_BYTE_FIRST && config->model->low_byte_first != NULL));
+}
+
+el_status el_tft_init(el_tft *panel, const el_tft_config *config)
+{
+    if (panel == NULL || config == NULL || !is_possible(config)) {
+        return EL_ERROR_ARGUMENT;
+    }
+    const el_bus *const bus = config->bus;
+    const el_tft_model *const model = config->model;
+    *panel = (el_tft){.config = *config, .lie = el_panel_orientation(config->rotation, config->mirrored != 0)};
+    const uint8_t access = memory_access(panel);
+    place_glass(panel, access);
+    choose_transfer(panel);
+
+    el_panel_reset(bus, RESET_WAIT_MS);
+    for (size_t i = 0; i < model->start_up_count; i++) {
+        send_entry(bus, &model->start_up[i]);
+    }
+    if (config->byte_order == EL_LOW_BYTE_FIRST) {
+        send_entry(bus, model->low_byte_first);
+    }
+    send(bus, CMD_MEMORY_ACCESS, &access, 1);
+    send(bus, (model->inverted != 0) != (config->inverted != 0) ? CMD_INVERSION_ON : CMD_INVERSION_OFF, NULL, 0);
+    send(bus, CMD_SLEEP_OUT, NULL, 0);
+    bus->delay_ms(bus->context, SLEEP_OUT_MS);
+    send(bus, CMD_DISPLAY_ON, NULL, 0);
+    return EL_OK;
+}
+
+static void set_range(const el_bus *bus, uint8_t code, unsigned begin, unsigned end)
+{
+    /* The controller's ranges include their last element. */
+    const unsigned last = end - 1U;
+    const uint8_t range[4] = {(uint8_t)(begin >> 8), (uint8_t)begin, (uint8_t)(last >> 8), (uint8_t)last};
+    send(bus, code, range, sizeof range);
+}
+
+static void set_columns(const el_tft *panel, unsigned width)
+{
+    set_range(panel->config.bus, CMD_COLUMN_ADDRESS, panel->first_x, panel->first_x + width);
+}
+
+static void start_writing(const el_tft *panel, unsigned line, unsigned height)
+{
+    set_range(panel->config.bus, CMD_ROW_ADDRESS, panel->first_y + line, panel->first_y + height);
+    send(panel->config.bus, CMD_MEMORY_WRITE, NULL, 0);
+}
+
+static void send_pixels(const el_tft *panel, const uint16_t *pixels, size_t count, void (*done)(void *argument),
+                        void *argument)
+{
+    const el_bus *const bus = panel->config.bus;
+    if (panel->words) {
+        bus->pixels(bus->context, pixels, count, done, argument);
+    } else {
+        bus->bytes(bus->context, (const uint8_t *)pixels, count * sizeof pixels[0], done, argument);
+    }
+}
+
+static void nothing_to_release(void *argument)
+{
+    (void)argument;
+}
+
+/* The memory holds noise after power-on; what a smaller frame leaves free would show it for ever. */
+static void blacken(const el_tft *panel)
+{
+    static const uint16_t black[BLACK_PIXELS];
+    const unsigned width = el_tft_width(panel);
+    const unsigned height = el_tft_height(panel);
+    set_columns(panel, width);
+    start_writing(panel, 0, height);
+    for (size_t left = (size_t)width * height; left > 0;) {
+        const size_t count = left < BLACK_PIXELS ? left : BLACK_PIXELS;
+        send_pixels(panel, black, count, nothing_to_release, NULL);
+        left -= count;
+    }
+}
+
+static void begin(void *context, uint16_t width, uint16_t height)
+{
+    el_tft *const panel = context;
+    const uint16_t glass_width = el_tft_width(panel);
+    const uint16_t glass_height = el_tft_height(panel);
+    const bool changed = width != panel->width || height != panel->height;
+    panel->fits = width <= glass_width && height <= glass_height;
+    if (panel->fits && changed && (width < glass_width || height < glass_height)) {
+        blacken(panel);
+    }
+    panel->width = width;
+    panel->height = height;
+    panel->next_line = NO_LINE;
+}
+
+static void swap_bytes(uint16_t *pixels, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        pixels[i] = (uint16_t)(pixels[i] << 8 | pixels[i] >> 8);
+    }
+}
+
+static void sent(void *argument)
+{
+    const struct el_tft_loan *const loan = argument;
+    el_band_release(loan->band, loan->slot);
+}
+
+static void rows(void *context, el_band *band, unsigned slot)
+{
+    el_tft *const panel = context;
+    if (!panel->fits) {
+        el_band_release(band, slot);
+        return;
+    }
+    /* The window is set once per frame even if it is that of the last one: a display that was disturbed (a spike on a
+     * wire) is right again a frame later, for 11 bytes. Within a frame only lines that were left out need a new one. */
+    if (panel->next_line == NO_LINE) {
+        set_columns(panel, panel->width);
+    }
+    if (band->y != panel->next_line) {
+        start_writing(panel, band->y, panel->height);
+    }
+    panel->next_line = (uint16_t)(band->y + band->lines);
+
+    /* The bus may still be sending the other band, so each has its own entry. */
+    struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
+    panel->next_loan ^= 1U;
+    *loan = (struct el_tft_loan){.band = band, .slot = slot};
+    const size_t count = (size_t)band->lines * band->width;
+    if (panel->swap) {
+        swap_bytes(band->pixels, count);
+    }
+    send_pixels(panel, band->pixels, count, sent, loan);
+}
+
+static void end(void *context, const el_stats *stats)
+{
+    (void)context;
+    (void)stats;
+}
+
+static void wait(void *context)
+{
+    const el_tft *const panel = context;
+    el_panel_wait(panel->config.bus);
+}
+
+el_sink el_tft_sink(el_tft *panel)
+{
+    return (el_sink){.context = panel, .begin = begin, .rows = rows, .end = end, .wait = wait};
+}

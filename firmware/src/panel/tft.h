@@ -1,0 +1,105 @@
+/* The driver of colour displays that speak MIPI DCS over 4-wire SPI (a D/C line beside clock and data), RGB565.
+ *
+ * The controllers of this family differ in a few tables, which are their models: ili9341.h, st7789.h, st7735.h. What they
+ * share is here: the walk through their memory (memory access control), windows, and bands that follow each other
+ * without commands, sent by the bus while the next band is drawn.
+ *
+ * Give `el_tft_sink` to the renderer. A frame may be smaller than the glass: it is the upper left part of it, and the rest
+ * is made black before the first such frame. */
+#ifndef EL_PANEL_TFT_H
+#define EL_PANEL_TFT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/bus.h"
+#include "base/sink.h"
+#include "base/status.h"
+#include "panel/panel.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct el_tft_command {
+    uint8_t code;
+    uint8_t count;
+    uint8_t parameters[4];
+} el_tft_command;
+
+/* A controller, and the glass that modules with it usually have. Constant tables of the controllers' headers. */
+typedef struct el_tft_model {
+    const el_tft_command *start_up; /* what differs from the values after reset */
+    uint8_t start_up_count;
+    uint8_t access;                       /* memory access control of the upright module: EL_TFT_ACCESS_... */
+    uint8_t inverted;                     /* 1: the glass needs display inversion for true colours (IPS glass) */
+    const el_tft_command *low_byte_first; /* makes the controller take that byte order; NULL: it cannot */
+    uint16_t memory_columns;              /* the controller's memory, ... */
+    uint16_t memory_rows;
+    uint16_t first_column; /* ... and the part of it that is behind the glass */
+    uint16_t first_row;
+    uint16_t columns;
+    uint16_t rows;
+} el_tft_model;
+
+/* Bits of memory access control, 36h; the same in all of these controllers. */
+enum {
+    EL_TFT_ACCESS_MY = 0x80,  /* rows from the last to the first */
+    EL_TFT_ACCESS_MX = 0x40,  /* columns from the last to the first */
+    EL_TFT_ACCESS_MV = 0x20,  /* a line of the picture is a column of the memory */
+    EL_TFT_ACCESS_BGR = 0x08, /* the glass has blue where the controller expects red */
+    EL_TFT_16_BIT = 0x55      /* pixel format, 3Ah: 16 bits per pixel on both interfaces */
+};
+
+typedef struct el_tft_config {
+    const el_bus *bus;         /* must stay; `pixels` or `bytes` may be NULL, not both */
+    const el_tft_model *model; /* must stay */
+    el_rotation rotation;
+    uint8_t mirrored;  /* 1: left and right change places, as for a display that is seen in a mirror */
+    uint8_t rgb_order; /* 1: red and blue change places: for glass whose order is not the model's */
+    uint8_t inverted;  /* 1: inversion is the opposite of the model's: for glass that shows the model as a negative */
+    /* EL_LOW_BYTE_FIRST only where the model says that the controller can. It saves the swap that a bus without 16-bit
+     * words needs. */
+    el_byte_order byte_order;
+} el_tft_config;
+
+/* Owned by the caller; its members are the driver's. */
+typedef struct el_tft {
+    el_tft_config config;
+    uint16_t width; /* of the frame */
+    uint16_t height;
+    uint16_t first_x; /* where the glass begins in the controller's addresses, as rotated */
+    uint16_t first_y;
+    uint16_t next_line; /* the line that the controller expects */
+    el_orientation lie;
+    bool fits;  /* the frame has no more pixels than the glass */
+    bool words; /* pixels go as 16-bit words, not as bytes */
+    bool swap;  /* ... after their bytes have changed places */
+    uint8_t next_loan;
+    struct el_tft_loan {
+        el_band *band;
+        unsigned slot;
+    } loans[2]; /* the bands on their way; the renderer has two */
+} el_tft;
+
+/* Resets and initialises the controller; takes about 250 ms. `config` is copied.
+ * EL_ERROR_ARGUMENT: no bus, no model, a bus that can send neither words nor bytes, a rotation or byte order that does
+ * not exist, or a byte order that the controller cannot take. Then nothing was sent. */
+el_status el_tft_init(el_tft *panel, const el_tft_config *config);
+
+/* The glass as the viewer sees it, in pixels. */
+uint16_t el_tft_width(const el_tft *panel);
+uint16_t el_tft_height(const el_tft *panel);
+
+/* The sink, which refers to `panel`. A frame that is larger than the glass is not shown.
+ *
+ * Where the bus has no 16-bit words and the controller wants the high byte first, the driver swaps the bytes of the
+ * band in place: then this must be the last of the renderer's sinks, and the others must be done with a band's pixels
+ * when their `rows` returns, as the stream is. */
+el_sink el_tft_sink(el_tft *panel);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,15 @@
+/* A bare Cortex-M program's line to the emulator (Arm, "Semihosting for AArch32 and AArch64", operations SYS_WRITE0 and
+ * SYS_EXIT_EXTENDED). Whatever faults ends the program with status 99: semihost.c gives boards/cortex_m/start.c its
+ * el_fault. */
+#ifndef EL_TEST_SEMIHOST_H
+#define EL_TEST_SEMIHOST_H
+
+enum { SEMIHOST_FAULT = 99 };
+
+/* To the emulator's console. */
+void semihost_print(const char *text);
+
+/* Ends the emulator with that status, 0 to 255. */
+_Noreturn void semihost_exit(int status);
+
+#endif
