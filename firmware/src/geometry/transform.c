@@ -390,20 +390,28 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     return vertex;
 }
 
-uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
+/* EL_CODE_LEFT and _RIGHT, and _GUARD, of one coordinate, whatever it and w are: ~w is -w - 1, and v / 2^shift rounded down
+ * compares with a whole number as v does with that number times 2^shift. */
+static unsigned side_code(int32_t v, int32_t w, unsigned guard_shift)
 {
     unsigned code = 0;
+    if (v <= ~w) {
+        code |= EL_CODE_LEFT | (v >> guard_shift <= ~w ? EL_CODE_GUARD : 0U);
+    }
+    if (v > w) {
+        code |= EL_CODE_RIGHT | ((v - 1) >> guard_shift >= w ? EL_CODE_GUARD : 0U);
+    }
+    return code;
+}
+
+uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
+{
+    _Static_assert(EL_CODE_BELOW == EL_CODE_LEFT << 2 && EL_CODE_ABOVE == EL_CODE_RIGHT << 2, "y's codes follow x's");
+    const unsigned x = side_code(vertex->x, vertex->w, transform->guard_shift[0]);
+    const unsigned y = side_code(vertex->y, vertex->w, transform->guard_shift[1]);
+    unsigned code = x | (y & EL_CODE_GUARD) | (y & (EL_CODE_LEFT | EL_CODE_RIGHT)) << 2;
     code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
     code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    const int32_t least = -vertex->w;
-    const int32_t values[4] = {vertex->x, -vertex->x, vertex->y, -vertex->y}; /* within +-2^30, as w is */
-    for (unsigned i = 0; i < 4; i++) {
-        if (values[i] < least) {
-            code |= (unsigned)EL_CODE_LEFT << i;
-            /* Less than least * 2^shift: so is, before a whole number, what rounds down to less than it. */
-            code |= values[i] >> transform->guard_shift[i / 2] < least ? EL_CODE_GUARD : 0U;
-        }
-    }
     return (uint8_t)code;
 }
 
