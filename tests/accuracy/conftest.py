@@ -20,7 +20,8 @@ from sim_commands import Simulator
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
-def _missing(what: str) -> NoReturn:
+def missing(what: str) -> NoReturn:
+    """Skips the test, or fails it where nothing may be skipped."""
     if os.environ.get("CI"):
         pytest.fail(f"{what} (CI is set: nothing may be skipped)", pytrace=False)
     pytest.skip(what)
@@ -29,7 +30,7 @@ def _missing(what: str) -> NoReturn:
 def _simulator_at(variable: str) -> Simulator:
     text = os.environ.get(variable)
     if not text:
-        _missing(f"no simulator: set {variable} to the path of edgeline-sim")
+        missing(f"no simulator: set {variable} to the path of edgeline-sim")
     path = Path(text).resolve()
     if not path.is_file():
         pytest.fail(f"{variable} names {text}, where there is no file: build the simulator first", pytrace=False)
@@ -61,7 +62,7 @@ def models() -> Path:
     """The folder with the test models, shared/models beside the repository."""
     folder = REPOSITORY.parent / "shared" / "models"
     if not folder.is_dir():
-        _missing("no test models: shared/models is not beside the repository")
+        missing("no test models: shared/models is not beside the repository")
     return folder
 
 

@@ -49,8 +49,8 @@ HEADERS = {
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": [],
     "base/fixed.c": [],
-    "geometry/transform.c": ["base/divide.c", "base/fixed.c", "base/angle.c"],
-    "geometry/clip.c": [],
+    "geometry/transform.c": ["geometry/pose.c", "base/divide.c", "base/fixed.c", "base/angle.c"],
+    "geometry/clip.c": ["base/divide.c", "base/fixed.c"],
     "raster/plane.c": ["base/divide.c"],
     "raster/triangle.c": ["raster/plane.c", "base/divide.c", "base/fixed.c"],
     "raster/texture_walk.c": ["base/divide.c"],

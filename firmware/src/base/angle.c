@@ -1,36 +1,32 @@
 #include "base/angle.h"
 
+#include <stdbool.h>
+
 /* pi * 2^28, rounded: 2 pi angle / 2^32 in Q31 is pi angle, so (angle * PI_Q28) >> 28. */
 #define PI_Q28 843314857U
 
-static int64_t multiply_q31(int64_t a, int64_t b)
+#define ONE_Q31 (1U << 31)
+
+/* Both at most 1. */
+static uint32_t multiply_q31(uint32_t a, uint32_t b)
 {
-    return (a * b + (1LL << 30)) >> 31; /* both at most 2^31 in magnitude here: the product is at most 2^62 */
+    return (uint32_t)(((uint64_t)a * b + (1U << 30)) >> 31);
 }
 
-/* sin and cos of x in [0, pi/4], Q31, by their Taylor series in Horner's form. The first term left out is x^13/13! below
- * 2^-37 for the sine and x^12/12! below 2^-32 for the cosine. */
-static int64_t sin_series_q31(int64_t x)
-{
-    const int64_t one = 1LL << 31;
-    const int64_t square = multiply_q31(x, x);
-    int64_t sum = one - square / 110;
-    sum = one - multiply_q31(square, sum) / 72;
-    sum = one - multiply_q31(square, sum) / 42;
-    sum = one - multiply_q31(square, sum) / 20;
-    sum = one - multiply_q31(square, sum) / 6;
-    return multiply_q31(x, sum);
-}
+/* Taylor's series in Horner's form, 1 - x^2/d4 (1 - x^2/d3 (1 - ...)), has these divisors from the inside out. With x in
+ * [0, pi/4], the first term left out is x^13/13! below 2^-37 for the sine and x^12/12! below 2^-32 for the cosine. */
+enum { TERMS = 5 };
+static const uint8_t sine_divisors[TERMS] = {110, 72, 42, 20, 6};
+static const uint8_t cosine_divisors[TERMS] = {90, 56, 30, 12, 2};
 
-static int64_t cos_series_q31(int64_t x)
+static uint32_t series_q31(uint32_t x, const uint8_t divisors[TERMS])
 {
-    const int64_t one = 1LL << 31;
-    const int64_t square = multiply_q31(x, x);
-    int64_t sum = one - square / 90;
-    sum = one - multiply_q31(square, sum) / 56;
-    sum = one - multiply_q31(square, sum) / 30;
-    sum = one - multiply_q31(square, sum) / 12;
-    return one - multiply_q31(square, sum) / 2;
+    const uint32_t square = multiply_q31(x, x);
+    uint32_t sum = ONE_Q31;
+    for (unsigned i = 0; i < TERMS; i++) {
+        sum = ONE_Q31 - multiply_q31(square, sum) / divisors[i];
+    }
+    return sum;
 }
 
 int32_t el_sin_q30(el_angle angle)
@@ -41,13 +37,14 @@ int32_t el_sin_q30(el_angle angle)
     if ((quadrant & 1U) != 0) {
         folded = 0x40000000U - folded;
     }
-    int64_t magnitude;
-    if (folded <= 0x20000000U) {
-        magnitude = sin_series_q31((int64_t)(((uint64_t)folded * PI_Q28) >> 28));
-    } else {
-        magnitude = cos_series_q31((int64_t)(((uint64_t)(0x40000000U - folded) * PI_Q28) >> 28));
+    const bool is_cosine = folded > 0x20000000U;
+    if (is_cosine) {
+        folded = 0x40000000U - folded;
     }
-    const int32_t value_q30 = (int32_t)((magnitude + 1) >> 1);
+    const uint32_t x = (uint32_t)(((uint64_t)folded * PI_Q28) >> 28);
+    const uint32_t magnitude =
+        is_cosine ? series_q31(x, cosine_divisors) : multiply_q31(x, series_q31(x, sine_divisors));
+    const int32_t value_q30 = (int32_t)((magnitude + 1U) >> 1);
     return quadrant >= 2 ? -value_q30 : value_q30;
 }
 

@@ -4,6 +4,10 @@
 
 #include "base/fixed.h"
 
+EL_INLINE_HERE uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder);
+EL_INLINE_HERE uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor);
+EL_INLINE_HERE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor);
+
 /* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
  * one, a short routine elsewhere. */
 static uint32_t reciprocal_word(uint32_t d)

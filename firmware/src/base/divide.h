@@ -24,7 +24,7 @@ typedef struct el_divisor {
 el_divisor el_divisor_make(uint32_t d);
 
 /* floor((high * 2^32 + low) / normalised); *remainder gets the rest. Pre: high < normalised. */
-static inline uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder)
+EL_INLINE uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder)
 {
     const uint32_t d = divisor->normalised;
     const uint64_t product = el_product_u64(divisor->reciprocal, high) + (((uint64_t)high << 32) | low);
@@ -43,7 +43,7 @@ static inline uint32_t el_divide_words(uint32_t high, uint32_t low, const el_div
 }
 
 /* floor(n / d). Pre: the quotient fits 32 bits. */
-static inline uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor)
+EL_INLINE uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor)
 {
     const uint64_t shifted = n << divisor->shift; /* n < d * 2^32 and d << shift < 2^32: below 2^64 */
     uint32_t remainder;
@@ -51,7 +51,7 @@ static inline uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor)
 }
 
 /* floor(n / d) for signed n. Pre: -2^31 <= n / d < 2^31. */
-static inline int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
+EL_INLINE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
 {
     /* For n < 0, floor(n / d) = -1 - floor((-n - 1) / d), and -n - 1 = ~n. */
     const uint32_t sign = n < 0 ? 0xFFFFFFFFU : 0U;
@@ -74,7 +74,7 @@ static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
 
 /* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
 extern const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
 static inline uint32_t el_reciprocal_of_short(uint32_t d)
 {

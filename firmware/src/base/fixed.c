@@ -1,5 +1,8 @@
 #include "base/fixed.h"
 
+EL_INLINE_HERE uint64_t el_multiply_u64(uint64_t a, int32_t b);
+EL_INLINE_HERE uint64_t el_product_u64(uint32_t a, uint32_t b);
+
 uint32_t el_sqrt_u64(uint64_t x)
 {
     uint64_t root = 0;
@@ -21,44 +24,19 @@ uint32_t el_sqrt_u64(uint64_t x)
 
 int64_t el_scale_i64(int64_t value, uint32_t factor, int shift)
 {
-    /* The magnitude's product in three words, high:middle:low, 63 + 32 bits. */
-    const uint64_t magnitude = el_abs_u64(value);
-    uint64_t low = (magnitude & 0xFFFFFFFFU) * factor;
-    uint64_t high = (magnitude >> 32) * factor + (low >> 32);
-    low &= 0xFFFFFFFFU;
-
-    /* Round half up for the signed value: half up for positive magnitudes, half down (just below half) for negative. */
-    uint64_t round_low = 0;
-    uint64_t round_high = 0;
+    /* The product is high * 2^32 and the lower 32 bits of `low`; high lies within -2^63 and 2^63 - 2^31. */
+    const uint64_t low = (uint64_t)(uint32_t)value * factor;
+    const int64_t high = (value >> 32) * (int64_t)factor + (int64_t)(low >> 32);
     if (shift > 32) {
-        round_high = 1ULL << (shift - 33);
-    } else if (shift > 0) {
-        round_low = 1ULL << (shift - 1);
+        return el_shift_i64(high, shift - 32);
     }
-    if (value < 0 && shift > 0) {
-        if (round_low == 0) {
-            round_low = 0xFFFFFFFFU;
-            round_high -= 1;
-        } else {
-            round_low -= 1;
-        }
+    const uint64_t lower = ((low & 0xFFFFFFFFU) + ((1ULL << shift) >> 1)) >> shift;
+    const int64_t sum = (int64_t)(((uint64_t)high << (32 - shift)) + lower);
+    const int64_t sign = high >> 63;
+    if (high >> (shift + 31) == sign && sum != INT64_MIN) {
+        return sum;
     }
-    low += round_low;
-    high += round_high + (low >> 32);
-    low &= 0xFFFFFFFFU;
-
-    uint64_t result;
-    if (shift >= 32) {
-        result = high >> (shift - 32);
-    } else if (el_bit_length_u64(high) + 32 - shift > 63) {
-        result = INT64_MAX;
-    } else {
-        result = (high << (32 - shift)) | (low >> shift);
-    }
-    if (result > INT64_MAX) {
-        result = INT64_MAX;
-    }
-    return value < 0 ? -(int64_t)result : (int64_t)result;
+    return sign < 0 ? -INT64_MAX : INT64_MAX;
 }
 
 int64_t el_shift_i64(int64_t value, int shift)
@@ -67,14 +45,13 @@ int64_t el_shift_i64(int64_t value, int shift)
         return 0;
     }
     if (shift > 0) {
-        return (value >> shift) + ((value >> (shift - 1)) & 1);
+        const int64_t doubled = value >> (shift - 1);
+        return (doubled >> 1) + (doubled & 1);
     }
-    const uint64_t magnitude = el_abs_u64(value);
-    if (magnitude == 0) {
-        return 0;
+    const int left = shift > -63 ? -shift : 63; /* 63 saturates all but 0 */
+    const int64_t limit = INT64_MAX >> left;
+    if (value > limit) {
+        return INT64_MAX;
     }
-    if (el_bit_length_u64(magnitude) - shift > 63) {
-        return value < 0 ? -INT64_MAX : INT64_MAX;
-    }
-    return value < 0 ? -(int64_t)(magnitude << -shift) : (int64_t)(magnitude << -shift);
+    return value < -limit ? -INT64_MAX : (int64_t)((uint64_t)value << left);
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/machine.h"
+#include "base/options.h"
 
 _Static_assert((-3 >> 1) == -2, "Edgeline needs arithmetic right shifts");
 
@@ -37,10 +38,11 @@ static inline int32_t el_max_i32(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-/* a * b modulo 2^64, |b| < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead. */
-static inline uint64_t el_multiply_u64(uint64_t a, int32_t b)
+/* a * b modulo 2^64, |b| < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead,
+ * where they need not be short. */
+EL_INLINE uint64_t el_multiply_u64(uint64_t a, int32_t b)
 {
-#if defined(__ARM_ARCH_6M__)
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
     const uint32_t factor = (uint32_t)(b < 0 ? -b : b);
     const uint32_t low = (uint32_t)a;
     const uint32_t middle = (low >> 16) * factor;
@@ -53,9 +55,9 @@ static inline uint64_t el_multiply_u64(uint64_t a, int32_t b)
 }
 
 /* a * b. */
-static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
+EL_INLINE uint64_t el_product_u64(uint32_t a, uint32_t b)
 {
-#if defined(__ARM_ARCH_6M__)
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
     const uint32_t a_high = a >> 16;
     const uint32_t a_low = a & 0xFFFFU;
     const uint32_t b_high = b >> 16;
@@ -73,7 +75,7 @@ static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
 /* a * b. */
 static inline int64_t el_product_i32_i16(int32_t a, int16_t b)
 {
-#if defined(__ARM_ARCH_6M__)
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
     const int32_t high = (a >> 16) * b;
     const int32_t low = (a & 0xFFFF) * b; /* below 2^16 * 2^15 */
     return (int64_t)high * 65536 + low;

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "base/options.h"
+
 typedef struct el_stats {
     uint32_t passes;             /* rounds of the caller's draw loop */
     uint32_t draws;              /* el_draw calls, all passes together; so are the counters below */
@@ -27,6 +29,13 @@ typedef struct el_stats {
     uint32_t flushes;            /* lists drawn early into a band because they were full */
     uint32_t memory_peak;        /* largest use of the arena, bytes */
 } el_stats;
+
+static inline void el_count(uint32_t *counter, uint32_t events)
+{
+    if (EL_WITH_STATS) {
+        *counter += events;
+    }
+}
 
 enum { EL_STATS_COUNT = sizeof(el_stats) / sizeof(uint32_t) };
 

@@ -79,7 +79,7 @@ static void hand_over(el_renderer *renderer)
             sink->rows(sink->context, band, i);
         }
     }
-    renderer->stats.bands++;
+    el_count(&renderer->stats.bands, 1);
     renderer->current ^= 1U;
     renderer->band_is_open = 0;
 }
@@ -92,7 +92,7 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
     el_triangle local;
     el_triangle *triangle = &local;
     uint16_t state = 0;
-    if (record->index == EL_INDEX_ACTIVE) {
+    if (EL_WITH_CARRY && record->index == EL_INDEX_ACTIVE) {
         state = record->at.state;
         triangle = el_list_at(list, state);
     } else {
@@ -100,9 +100,9 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
         el_surface surface;
         el_list_gather(list, record, corners, &surface);
         surface.uv_error_log2 = renderer->config.uv_error_log2;
-        renderer->stats.setups++;
+        el_count(&renderer->stats.setups, 1);
         const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
-        if (el_first_centre(y_last) > target->y_end) {
+        if (EL_WITH_CARRY && el_first_centre(y_last) > target->y_end) {
             state = take_state(pool, list, surface.shading);
             triangle = state != 0 ? el_list_at(list, state) : &local;
         }
@@ -162,7 +162,7 @@ static uint16_t draw_band(el_renderer *renderer, uint16_t band, const el_target 
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
 {
     const uint32_t use = renderer->fixed_bytes + bytes;
-    if (use > renderer->stats.memory_peak) {
+    if (EL_WITH_STATS && use > renderer->stats.memory_peak) {
         renderer->stats.memory_peak = use;
     }
 }
@@ -184,7 +184,7 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
 
 void el_bands_flush(el_renderer *renderer)
 {
-    renderer->stats.flushes++;
+    el_count(&renderer->stats.flushes, 1);
     draw_pass(renderer, false);
     el_list_clear(&renderer->list);
 }

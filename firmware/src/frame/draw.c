@@ -13,21 +13,25 @@ typedef struct cached_vertex {
     el_screen_vertex vertex;
 } cached_vertex;
 
+/* Attributes of corners that are cut. */
+enum { U, V, RGB };
+
 typedef struct drawing {
     el_renderer *renderer;
     const el_mesh *mesh;
+    bool direct;
+    el_record_kind kind;     /* of its triangles */
+    el_record_kind cut_kind; /* of those that are cut */
+    uint32_t capacity;       /* vertices in the cache */
+    void *vertices;          /* el_screen_vertex[] or cached_vertex[] */
     el_draw_state state;
     el_transform transform;
-    bool direct;
-    bool perspective_records;
-    uint32_t capacity; /* vertices in the cache */
-    void *vertices;    /* el_screen_vertex[] or cached_vertex[] */
 } drawing;
 
 static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
 {
     el_transform_vertex(&d->transform, d->mesh->positions[index], screen);
-    d->renderer->stats.vertices++;
+    el_count(&d->renderer->stats.vertices, 1);
 }
 
 /* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
@@ -122,11 +126,11 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
     for (unsigned i = 0; i < 3; i++) {
         const int32_t *const a = corners[i]->attributes;
-        clipped->attributes[i] = (el_attributes){
-            .u_q16 = a[0],
-            .v_q16 = a[1],
-            .rgb_q8 = {(uint16_t)a[2], (uint16_t)a[3], (uint16_t)a[4]},
-        };
+        el_attributes *const attributes = &clipped->attributes[i];
+        *attributes = (el_attributes){.u_q16 = a[U], .v_q16 = a[V]};
+        for (unsigned channel = 0; channel < 3 && EL_WITH_GOURAUD; channel++) {
+            attributes->rgb_q8[channel] = (uint16_t)a[RGB + channel];
+        }
     }
 }
 
@@ -140,11 +144,11 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
 
     const int64_t area = el_doubled_area(x, y);
     if (area == 0) {
-        stats->triangles_empty++;
+        el_count(&stats->triangles_empty, 1);
         return;
     }
     if (el_shows_back(&d->state, area) && (d->state.material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
-        stats->triangles_backface++;
+        el_count(&stats->triangles_backface, 1);
         return;
     }
     const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
@@ -152,24 +156,22 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
     const int32_t y_begin = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])));
     const int32_t y_end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])));
     if (x_begin >= x_end || y_begin >= y_end) {
-        stats->triangles_empty++;
+        el_count(&stats->triangles_empty, 1);
         return;
     }
     if (x_end <= 0 || x_begin >= renderer->config.width || y_end <= 0 || y_begin >= renderer->config.height) {
-        stats->triangles_outside++;
+        el_count(&stats->triangles_outside, 1);
         return;
     }
 
     const int32_t lines = renderer->config.band_lines;
     const int32_t pass_row = renderer->pass_begin * lines;
     const int32_t row = el_max_i32(y_begin, pass_row);
-    const el_record_kind kind = cut != NULL              ? EL_RECORD_CLIPPED
-                                : d->perspective_records ? EL_RECORD_PERSPECTIVE
-                                                         : EL_RECORD_PLAIN;
+    const el_record_kind kind = cut != NULL ? d->cut_kind : d->kind;
     el_record *record = NULL;
     while (record == NULL) {
         if (y_end <= pass_row || row >= renderer->pass_end * lines) {
-            stats->triangles_other++;
+            el_count(&stats->triangles_other, 1);
             return;
         }
         record = el_list_append(&renderer->list, &d->state, kind, row);
@@ -177,12 +179,12 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
             place_vertices(d);
         }
     }
-    stats->triangles_listed++;
+    el_count(&stats->triangles_listed, 1);
     fill_plain(record, index, v);
-    if (kind != EL_RECORD_PLAIN) {
+    if (EL_WITH_TEXTURE && kind != EL_RECORD_PLAIN) {
         fill_perspective(record, v);
     }
-    if (kind == EL_RECORD_CLIPPED) {
+    if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
         fill_clipped(record, cut);
     }
 }
@@ -192,16 +194,8 @@ static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
 {
     /* Sign of the determinant of the (x, y, w) rows, with 19 bits of each, so that it stays below 2^60 whatever they
      * hold. What is turned by less looks alike lit from either side. */
-    int64_t c[3][3];
-    for (unsigned i = 0; i < 3; i++) {
-        c[i][0] = v[i].x / (1 << 12);
-        c[i][1] = v[i].y / (1 << 12);
-        c[i][2] = v[i].w / (1 << 12);
-    }
-    const int64_t det = c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) -
-                        c[0][1] * (c[1][0] * c[2][2] - c[1][2] * c[2][0]) +
-                        c[0][2] * (c[1][0] * c[2][1] - c[1][1] * c[2][0]);
-    return (det < 0) != (draw->mirrored != 0);
+    const int32_t rows[3][3] = {{v[0].x, v[0].y, v[0].w}, {v[1].x, v[1].y, v[1].w}, {v[2].x, v[2].y, v[2].w}};
+    return el_determinant_is_negative(rows, 12) != (draw->mirrored != 0);
 }
 
 /* A corner from which a fan has triangles of one winding. Snapping can dent a cut polygon by a sub-pixel; from the wrong
@@ -231,32 +225,32 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
 {
     const uint16_t *const vertices = d->mesh->triangles[index];
     const el_material *const material = d->state.material;
-    const bool coloured = material->shading == EL_SHADE_GOURAUD || material->shading == EL_SHADE_TEXTURED_GOURAUD;
+    const bool coloured = el_has_colours((el_shading)material->shading);
     el_clip_corner corners[EL_CLIP_MAX_VERTICES];
     el_clip_vertex clip[3];
     for (unsigned i = 0; i < 3; i++) {
         clip[i] = el_transform_position(&d->transform, d->mesh->positions[vertices[i]]);
     }
-    const bool turned = coloured && material->light != NULL && (material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
+    const bool turned = coloured && el_is_lit(material) && (material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
                         seen_from_back(&d->state, clip);
     for (unsigned i = 0; i < 3; i++) {
         corners[i] = (el_clip_corner){.position = clip[i]};
-        if (d->perspective_records) {
-            corners[i].attributes[0] = d->mesh->uvs[vertices[i]][0] * (1 << 12);
-            corners[i].attributes[1] = d->mesh->uvs[vertices[i]][1] * (1 << 12);
+        if (el_has_texture((el_shading)material->shading)) {
+            corners[i].attributes[U] = d->mesh->uvs[vertices[i]][0] * (1 << 12);
+            corners[i].attributes[V] = d->mesh->uvs[vertices[i]][1] * (1 << 12);
         }
         if (coloured) {
             uint16_t rgb_q8[3];
             el_shade_vertex(&d->state, vertices[i], turned, rgb_q8);
             for (unsigned channel = 0; channel < 3; channel++) {
-                corners[i].attributes[2 + channel] = rgb_q8[channel];
+                corners[i].attributes[RGB + channel] = rgb_q8[channel];
             }
         }
     }
     const unsigned count = el_clip_polygon(&d->transform, corners, 3, codes);
-    d->renderer->stats.triangles_clipped++;
+    el_count(&d->renderer->stats.triangles_clipped, 1);
     if (count == 0) {
-        d->renderer->stats.triangles_outside++;
+        el_count(&d->renderer->stats.triangles_outside, 1);
         return;
     }
     el_screen_vertex screen[EL_CLIP_MAX_VERTICES];
@@ -279,9 +273,9 @@ static void draw_triangles(drawing *d)
     for (uint32_t i = 0; i < d->mesh->triangle_count; i++) {
         const uint16_t *const vertices = d->mesh->triangles[i];
         const el_screen_vertex v[3] = {vertex_at(d, vertices[0]), vertex_at(d, vertices[1]), vertex_at(d, vertices[2])};
-        stats->triangles++;
+        el_count(&stats->triangles, 1);
         if ((v[0].code & v[1].code & v[2].code & EL_CODE_OUTSIDE) != 0) {
-            stats->triangles_outside++;
+            el_count(&stats->triangles_outside, 1);
             continue;
         }
         const uint8_t codes = v[0].code | v[1].code | v[2].code;
@@ -293,6 +287,12 @@ static void draw_triangles(drawing *d)
     }
 }
 
+/* The bits of el_shading that options.h leaves out. */
+enum {
+    LEFT_OUT = (EL_WITH_GOURAUD ? 0 : EL_SHADE_GOURAUD) | (EL_WITH_TEXTURE ? 0 : EL_SHADE_TEXTURED) |
+               (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
+};
+
 static el_status check(const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
@@ -301,11 +301,14 @@ static el_status check(const el_mesh *mesh, const el_material *material)
     if (mesh->triangle_count > 0 && (mesh->positions == NULL || mesh->triangles == NULL)) {
         return EL_ERROR_ARGUMENT;
     }
-    const bool textured = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
-    if (material->shading > EL_SHADE_OVERDRAW ||
-        (textured && (material->texture == NULL || material->texture->texels == NULL || mesh->uvs == NULL ||
-                      material->texture->width_log2 > 10 || material->texture->height_log2 > 10)) ||
-        (material->light != NULL && mesh->normals == NULL)) {
+    const unsigned shading = material->shading;
+    if (shading > EL_SHADE_OVERDRAW || (shading & LEFT_OUT) != 0 ||
+        (!EL_WITH_DITHER && (material->flags & EL_MATERIAL_DITHER) != 0) ||
+        (!EL_WITH_LIGHT && material->light != NULL) ||
+        (el_has_texture((el_shading)shading) &&
+         (material->texture == NULL || material->texture->texels == NULL || mesh->uvs == NULL ||
+          material->texture->width_log2 > 10 || material->texture->height_log2 > 10)) ||
+        (el_is_lit(material) && mesh->normals == NULL)) {
         return EL_ERROR_MATERIAL;
     }
     return EL_OK;
@@ -320,29 +323,28 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (status != EL_OK) {
         return status;
     }
-    renderer->stats.draws++;
+    el_count(&renderer->stats.draws, 1);
     drawing d = {.renderer = renderer, .mesh = mesh};
     const int visibility = el_transform_make(&d.transform, &renderer->view, mesh, pose);
     if (visibility < 0) {
         return (el_status)visibility;
     }
     if (visibility == EL_CULLED) {
-        renderer->stats.draws_culled++;
+        el_count(&renderer->stats.draws_culled, 1);
         return EL_OK;
     }
     d.state = (el_draw_state){.mesh = mesh, .material = material, .mirrored = d.transform.mirrored};
-    if (material->light != NULL) {
+    if (el_is_lit(material)) {
         /* Into model space, by the transposed rotation. */
         for (unsigned i = 0; i < 3; i++) {
-            int64_t dot = 0;
-            for (unsigned j = 0; j < 3; j++) {
-                dot += (int64_t)material->light->direction_q30[j] * pose->rotation_q30[j][i];
-            }
-            const int64_t component = el_shift_i64(dot, 46);
+            const int64_t component =
+                el_shift_i64(el_dot_column(material->light->direction_q30, pose->rotation_q30, i), 46);
             d.state.light_q14[i] = (int16_t)(component > 16384 ? 16384 : (component < -16384 ? -16384 : component));
         }
     }
-    d.perspective_records = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
+    const el_shading shading = (el_shading)material->shading;
+    d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
+    d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_PLAIN;
     el_list_end_run(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {

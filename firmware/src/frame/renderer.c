@@ -1,5 +1,7 @@
 #include "frame/renderer.h"
 
+#include <string.h>
+
 #include "base/fixed.h"
 #include "frame/bands.h"
 
@@ -23,7 +25,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     if (config->memory_bytes < EL_MIN_MEMORY_BYTES(width, config->height, lines) || config->memory_bytes > INT32_MAX) {
         return EL_ERROR_MEMORY;
     }
-    *renderer = (el_renderer){.config = *config};
+    memset(renderer, 0, sizeof *renderer);
+    renderer->config = *config;
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
     renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
     renderer->pass_bands = renderer->band_count;
@@ -56,7 +59,7 @@ static void begin_pass(el_renderer *renderer, uint16_t first_band)
 {
     renderer->pass_begin = first_band;
     renderer->pass_end = (uint16_t)el_min_i32(renderer->band_count, (int32_t)first_band + renderer->pass_bands);
-    renderer->stats.passes++;
+    el_count(&renderer->stats.passes, 1);
 }
 
 el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
@@ -68,7 +71,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     if (status != EL_OK) {
         return status;
     }
-    renderer->stats = (el_stats){0};
+    memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
     begin_pass(renderer, 0);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {

@@ -80,23 +80,23 @@ typedef struct el_config {
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
 } el_config;
 
-/* Owned by the caller; its members are the renderer's. */
+/* Owned by the caller; its members are the renderer's. Small ones come first: Thumb code reaches them at once there. */
 typedef struct el_renderer {
-    el_config config;
-    el_view view;
-    el_list list;
-    el_band bands[2];
-    uint16_t *depth;
-    uint32_t list_bytes;  /* all that lies between the bins and the depth band */
-    uint32_t fixed_bytes; /* bands and bins */
-    uint16_t band_count;
-    uint16_t pass_begin; /* bands of this pass */
-    uint16_t pass_end;
-    uint16_t pass_bands;  /* what the next pass tries for */
     uint8_t current;      /* which of `bands` is drawn into next */
     uint8_t band_is_open; /* it is cleared, and part of its triangles are drawn */
     uint8_t in_frame;
+    uint16_t band_count;
+    uint16_t pass_begin; /* bands of this pass */
+    uint16_t pass_end;
+    uint16_t pass_bands; /* what the next pass tries for */
+    uint16_t *depth;
+    uint32_t list_bytes;  /* all that lies between the bins and the depth band */
+    uint32_t fixed_bytes; /* bands and bins */
+    el_config config;
+    el_list list;
     el_stats stats;
+    el_band bands[2];
+    el_view view;
 } el_renderer;
 
 /* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. */
@@ -106,7 +106,8 @@ el_status el_init(el_renderer *renderer, const el_config *config);
 el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
- * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or a light without normals. EL_ERROR_RANGE: the
+ * EL_ERROR_MATERIAL: textured without texture or texture coordinates, a light without normals, or what
+ * base/options.h leaves out. EL_ERROR_RANGE: the
  * pose or the mesh leaves the world, or the mesh is too large for so narrow a view; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
  * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);

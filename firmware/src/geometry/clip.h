@@ -10,13 +10,13 @@
 #include "geometry/transform.h"
 
 enum {
-    EL_CLIP_ATTRIBUTES = 5,  /* u, v, red, green, blue */
-    EL_CLIP_MAX_VERTICES = 9 /* a triangle and six planes */
+    EL_CLIP_ATTRIBUTES = EL_WITH_GOURAUD ? 5 : (EL_WITH_TEXTURE ? 2 : 0), /* u, v, red, green, blue */
+    EL_CLIP_MAX_VERTICES = 9                                              /* a triangle and six planes */
 };
 
 typedef struct el_clip_corner {
     el_clip_vertex position;
-    int32_t attributes[EL_CLIP_ATTRIBUTES]; /* |attribute| < 2^30, in any unit */
+    int32_t attributes[EL_CLIP_ATTRIBUTES > 0 ? EL_CLIP_ATTRIBUTES : 1]; /* |attribute| < 2^30, in any unit */
 } el_clip_corner;
 
 /* Cuts the polygon of `count` corners in place. Returns the corners that are left: 0, or 3 to EL_CLIP_MAX_VERTICES, all

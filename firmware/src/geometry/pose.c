@@ -10,6 +10,28 @@ el_pose el_pose_identity(void)
     };
 }
 
+bool el_determinant_is_negative(const int32_t m[3][3], unsigned dropped)
+{
+    int64_t determinant = 0;
+    for (unsigned j = 0; j < 3; j++) {
+        const unsigned k = j < 2 ? j + 1U : 0U;
+        const unsigned l = j > 0 ? j - 1U : 2U;
+        const int64_t minor =
+            (int64_t)(m[1][k] >> dropped) * (m[2][l] >> dropped) - (int64_t)(m[1][l] >> dropped) * (m[2][k] >> dropped);
+        determinant += (m[0][j] >> dropped) * minor;
+    }
+    return determinant < 0;
+}
+
+int64_t el_dot_column(const int32_t v[3], const int32_t m[3][3], unsigned column)
+{
+    int64_t sum = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        sum += (int64_t)v[i] * m[i][column];
+    }
+    return sum;
+}
+
 /* Rounding may carry an element of a product of rotations a few units beyond 1; the pose's range ends there. */
 static int32_t clamp_unit(int64_t value_q30)
 {

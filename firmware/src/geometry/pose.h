@@ -26,6 +26,13 @@ typedef struct el_pose {
     uint32_t scale_q16; /* 1 to 2^32 - 1 */
 } el_pose;
 
+/* Whether the determinant of m is negative, taken from its elements without their `dropped` lowest bits, at least 12 and such
+ * that no more than 20 are left. */
+bool el_determinant_is_negative(const int32_t m[3][3], unsigned dropped);
+
+/* v * the matrix' column, |elements| such that the products' sum stays below 2^63. */
+int64_t el_dot_column(const int32_t v[3], const int32_t m[3][3], unsigned column);
+
 typedef enum el_axis { EL_AXIS_X, EL_AXIS_Y, EL_AXIS_Z } el_axis;
 
 /* Unit rotation, the origin, scale 1. */

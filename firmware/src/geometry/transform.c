@@ -1,6 +1,7 @@
 #include "geometry/transform.h"
 
 #include <stdbool.h>
+#include <string.h>
 
 #include "base/fixed.h"
 
@@ -9,11 +10,18 @@ _Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a
 /* Position of models and cameras, Q16.16: +-16384 units. */
 #define MAX_POSITION_Q16 (1 << 30)
 
+/* value_q32 >= 1 */
 static el_factor factor_from_q32(uint64_t value_q32)
 {
-    const int shift = el_bit_length_u64(value_q32) - 31;
-    const uint64_t mantissa = shift >= 0 ? value_q32 >> shift : value_q32 << -shift;
-    return (el_factor){.mantissa = (uint32_t)mantissa, .exponent = (int16_t)(32 - shift)};
+    el_factor factor = {.exponent = 32};
+    for (; value_q32 >> 31 != 0; value_q32 >>= 1) {
+        factor.exponent--;
+    }
+    for (; value_q32 >> 30 == 0; value_q32 <<= 1) {
+        factor.exponent++;
+    }
+    factor.mantissa = (uint32_t)value_q32;
+    return factor;
 }
 
 /* The guard band about the screen's middle: half the size, times 1 + 2^shift, at most EL_GUARD_PX from the origin. */
@@ -26,26 +34,37 @@ static uint8_t guard_shift(uint16_t size)
     return shift;
 }
 
-static bool outside_unit(const int32_t matrix_q30[3][3])
+/* A rotation and a position: EL_ERROR_CAMERA when an element is beyond +-1, EL_ERROR_RANGE when the place is outside the
+ * world. */
+static el_status check_place(const int32_t matrix_q30[3][3], const int32_t position_q16[3])
 {
     /* A few units of rounding beyond 1 are no error of the caller's. */
-    const uint64_t limit = EL_UNIT_Q30 + 16;
-    for (unsigned i = 0; i < 9; i++) {
-        if (el_abs_u64(matrix_q30[i / 3][i % 3]) > limit) {
-            return true;
+    const uint32_t unit = EL_UNIT_Q30 + 16;
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned j = 0; j < 3; j++) {
+            if ((uint32_t)matrix_q30[i][j] + unit > 2U * unit) {
+                return EL_ERROR_CAMERA;
+            }
         }
     }
-    return false;
+    for (unsigned i = 0; i < 3; i++) {
+        if ((uint32_t)position_q16[i] + MAX_POSITION_Q16 > 2U * MAX_POSITION_Q16) {
+            return EL_ERROR_RANGE;
+        }
+    }
+    return EL_OK;
 }
 
-static bool outside_world(const int32_t position_q16[3])
+static bool is_orthographic(const el_view *view)
 {
-    for (unsigned i = 0; i < 3; i++) {
-        if (el_abs_u64(position_q16[i]) > MAX_POSITION_Q16) {
-            return true;
-        }
-    }
-    return false;
+    return EL_WITH_ORTHOGRAPHIC && view->projection == EL_ORTHOGRAPHIC;
+}
+
+/* floor(n / d), n < 2^63. */
+static uint64_t divide(uint64_t n, uint32_t d)
+{
+    const el_divisor divisor = el_divisor_make(d);
+    return (uint64_t)el_divide_q32((int64_t)(n >> 32), (uint32_t)n, &divisor);
 }
 
 el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, uint16_t height)
@@ -53,50 +72,53 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
     if (width < 1 || width > EL_MAX_WIDTH || height < 1 || height > EL_MAX_HEIGHT) {
         return EL_ERROR_SIZE;
     }
-    const uint64_t near = camera->near_q16;
-    const uint64_t far = camera->far_q16;
-    if ((camera->projection != EL_PERSPECTIVE && camera->projection != EL_ORTHOGRAPHIC) ||
-        outside_unit(camera->axes_q30) || near < 16 || far < near + (near + 7) / 8 || far > MAX_POSITION_Q16 ||
-        (camera->aspect_q16 != 0 && (camera->aspect_q16 < 256 || camera->aspect_q16 > (1U << 24)))) {
+    const uint32_t near = camera->near_q16;
+    const uint32_t far = camera->far_q16;
+    const uint32_t aspect = camera->aspect_q16;
+    if (near < 16 || far > MAX_POSITION_Q16 || near > far || far - near < (near + 7) / 8 ||
+        (aspect != 0 && (aspect < 256 || aspect > 1U << 24))) {
         return EL_ERROR_CAMERA;
     }
-    if (outside_world(camera->position_q16)) {
-        return EL_ERROR_RANGE;
+    const el_status place = check_place(camera->axes_q30, camera->position_q16);
+    if (place != EL_OK) {
+        return place;
     }
 
-    uint64_t focal_q32; /* of y: 2^25 < focal_q32 < 2^39 in perspective, at most 2^41 in orthographic projection */
+    /* The focal factor of y, 2^25 < focal_q32 < 2^39 in perspective, at most 2^41 in orthographic projection, is
+     * cosine / sine or 2^17 / height. */
+    uint32_t numerator;
+    uint32_t denominator;
     if (camera->projection == EL_PERSPECTIVE) {
         if (camera->fov_y < EL_DEGREES(1, 1) || camera->fov_y > EL_DEGREES(179, 1)) {
             return EL_ERROR_CAMERA;
         }
-        const uint64_t cosine = (uint64_t)el_cos_q30(camera->fov_y / 2);
-        focal_q32 = (cosine << 32) / (uint64_t)el_sin_q30(camera->fov_y / 2);
+        numerator = (uint32_t)el_cos_q30(camera->fov_y / 2);
+        denominator = (uint32_t)el_sin_q30(camera->fov_y / 2);
     } else {
-        if (camera->height_q16 < 256 || camera->height_q16 > 2U * MAX_POSITION_Q16) {
+        if (!EL_WITH_ORTHOGRAPHIC || camera->projection != EL_ORTHOGRAPHIC || camera->height_q16 < 256 ||
+            camera->height_q16 > 2U * MAX_POSITION_Q16) {
             return EL_ERROR_CAMERA;
         }
-        focal_q32 = (1ULL << 49) / camera->height_q16;
+        numerator = 1U << 17;
+        denominator = camera->height_q16;
     }
-    const uint64_t focal_x_q32 =
-        camera->aspect_q16 != 0 ? (focal_q32 << 16) / camera->aspect_q16 : focal_q32 * height / width;
+    uint64_t focal_q32[2];
+    focal_q32[1] = divide((uint64_t)numerator << 32, denominator);
+    focal_q32[0] = divide(focal_q32[1] * (aspect != 0 ? 1U << 16 : height), aspect != 0 ? aspect : width);
 
-    for (unsigned i = 0; i < 9; i++) {
-        view->axes_q30[i / 3][i % 3] = camera->axes_q30[i / 3][i % 3];
-    }
-    for (unsigned i = 0; i < 3; i++) {
-        view->position_q16[i] = camera->position_q16[i];
-    }
+    memcpy(view->axes_q30, camera->axes_q30, sizeof view->axes_q30);
+    memcpy(view->position_q16, camera->position_q16, sizeof view->position_q16);
     view->projection = camera->projection;
-    view->focal[0] = factor_from_q32(focal_x_q32);
-    view->focal[1] = factor_from_q32(focal_q32);
-    view->near_q16 = camera->near_q16;
-    view->far_q16 = camera->far_q16;
+    view->near_q16 = near;
+    view->far_q16 = far;
     /* far >= 9/8 near, so far / (far - near) <= 9 and the scale is at most 65534 * 9 * 2^12 < 2^32. */
-    view->depth_scale_q12 = (uint32_t)(((EL_DEPTH_MAX * far) << 12) / (far - near));
+    view->depth_scale_q12 = (uint32_t)divide(((uint64_t)EL_DEPTH_MAX * far) << 12, far - near);
     view->size[0] = width;
     view->size[1] = height;
-    view->guard_shift[0] = guard_shift(width);
-    view->guard_shift[1] = guard_shift(height);
+    for (unsigned i = 0; i < 2; i++) {
+        view->focal[i] = factor_from_q32(focal_q32[i]);
+        view->guard_shift[i] = guard_shift(view->size[i]);
+    }
     return EL_OK;
 }
 
@@ -104,50 +126,44 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
 static bool is_reflection(const int32_t m_q30[3][3])
 {
     /* 16 bits of each element: products of three below 2^46. */
-    int64_t determinant = 0;
-    for (unsigned j = 0; j < 3; j++) {
-        const unsigned k = (j + 1U) % 3U;
-        const unsigned l = (j + 2U) % 3U;
-        const int64_t minor =
-            (int64_t)(m_q30[1][k] >> 15) * (m_q30[2][l] >> 15) - (int64_t)(m_q30[1][l] >> 15) * (m_q30[2][k] >> 15);
-        determinant += (m_q30[0][j] >> 15) * minor;
-    }
-    return determinant < 0;
+    return el_determinant_is_negative(m_q30, 15);
 }
 
-/* A coordinate in view space as a linear form on positions, in world units: (offset + sum(row * p)), Q44. World positions
- * differ by at most 2^15 per axis and meshes reach at most 2^15 from their origin (checked), so offsets and sums stay
- * below 3 * 2^59. The rows that are drawn with come from `exact`, which keeps the bits of small scales:
- * exact * 2^exponent is a row's element in world units, |exact| < 2^60. */
+/* A coordinate in view space as a linear form on positions, in world units: at[0..2] are the coefficients of x, y and z,
+ * at[3] is added; Q44. World positions differ by at most 2^15 per axis and meshes reach at most 2^15 from their origin
+ * (checked), so offsets and sums stay below 3 * 2^59. The rows that are drawn with come from `exact`, which keeps the bits
+ * of small scales: exact * 2^exponent is a row's element in world units, |exact| < 2^60. */
+enum { FORM_BITS = 44, OFFSET = 3 };
+
 typedef struct el_form {
-    int64_t row[3];
-    int64_t offset;
+    int64_t at[4];
     int64_t exact[3];
 } el_form;
 
-enum { FORM_BITS = 44 };
-
-/* Length of a row, rounded up. */
-static uint64_t row_length(const int64_t row[3])
-{
-    const uint64_t all = el_abs_u64(row[0]) | el_abs_u64(row[1]) | el_abs_u64(row[2]);
-    const int excess = el_bit_length_u64(all) - 30;
-    const int shift = excess > 0 ? excess : 0;
-    uint64_t sum = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        const uint64_t part = (el_abs_u64(row[i]) >> shift) + 1U;
-        sum += part * part;
-    }
-    return ((uint64_t)el_sqrt_u64(sum) + 1U) << shift;
-}
-
 static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
 {
-    int64_t value = form->offset;
+    int64_t value = form->at[OFFSET];
     for (unsigned i = 0; i < 3; i++) {
-        value += form->row[i] * mesh->centre[i];
+        value += form->at[i] * mesh->centre[i];
     }
     return value;
+}
+
+/* The most that the form differs from its value at the centre, within a sphere that is a unit larger: the length of its
+ * row, rounded up, times the radius. */
+static int64_t form_reach(const el_form *form, const el_mesh *mesh)
+{
+    uint64_t all = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        all |= el_abs_u64(form->at[i]);
+    }
+    const int shift = el_max_i32(0, el_bit_length_u64(all) - 30);
+    uint64_t sum = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const uint32_t part = (uint32_t)(el_abs_u64(form->at[i]) >> shift) + 1U;
+        sum += (uint64_t)part * part;
+    }
+    return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * (mesh->radius + 1U));
 }
 
 /* value * factor * 2^-shift, rounded. */
@@ -164,87 +180,74 @@ static int64_t scale_by(int64_t value, el_factor factor, int shift)
 /* How far the mesh reaches from its origin along any axis, in position units. */
 static uint32_t reach_of(const el_mesh *mesh)
 {
-    uint32_t reach = 0;
+    int32_t reach = 0;
     for (unsigned i = 0; i < 3; i++) {
-        const uint32_t distance = (uint32_t)el_abs_u64(mesh->centre[i]);
-        reach = distance > reach ? distance : reach;
+        const int32_t distance = mesh->centre[i];
+        reach = el_max_i32(reach, distance < 0 ? -distance : distance);
     }
-    return reach + mesh->radius + 1U;
+    return (uint32_t)reach + mesh->radius + 1U;
 }
 
 /* The view-space rows of the mesh: right, up, distance. False when the mesh leaves the world. */
 static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *pose, el_form forms[3], int *exponent)
 {
     /* The scale with at most 28 bits: model scales below 4096 with their whole fraction. */
-    const int excess = el_bit_length_u32(pose->scale_q16) - 28;
-    const int scale_shift = excess > 0 ? excess : 0;
+    const int scale_shift = el_max_i32(0, el_bit_length_u32(pose->scale_q16) - 28);
     const int64_t scale = pose->scale_q16 >> scale_shift;
     *exponent = scale_shift + mesh->scale_log2 - (30 + 16);
     /* |row| * reach < 2^(FORM_BITS + 15) */
     const int row_bits = FORM_BITS + 15 - el_bit_length_u32(reach_of(mesh));
 
     for (unsigned i = 0; i < 3; i++) {
-        const int32_t *axis = view->axes_q30[i];
-        const int sign = i == 2 ? -1 : 1; /* distance runs against the backward axis */
+        const int32_t *const axis = view->axes_q30[i];
+        el_form *const form = &forms[i];
         int64_t offset = 0;
         for (unsigned j = 0; j < 3; j++) {
             /* Q30 * Q16 is Q46; positions within +-2^30 differ by at most 2^31, so a term is at most 2^61. */
             offset += (int64_t)axis[j] * ((int64_t)pose->position_q16[j] - view->position_q16[j]);
-
-            int64_t dot = 0; /* at most 3 * 2^60 */
-            for (unsigned k = 0; k < 3; k++) {
-                dot += (int64_t)axis[k] * pose->rotation_q30[k][j];
+            form->exact[j] =
+                el_shift_i64(el_dot_column(axis, pose->rotation_q30, j), 30) * scale; /* below 2^32 * 2^28 */
+        }
+        form->at[OFFSET] = el_shift_i64(offset, 46 - FORM_BITS);
+        if (i == 2) { /* distance runs against the backward axis */
+            form->at[OFFSET] = -form->at[OFFSET];
+            for (unsigned j = 0; j < 3; j++) {
+                form->exact[j] = -form->exact[j];
             }
-            forms[i].exact[j] = sign * (el_shift_i64(dot, 30) * scale); /* below 2^32 * 2^28 */
-            forms[i].row[j] = el_shift_i64(forms[i].exact[j], -(*exponent + FORM_BITS));
-            if (el_bit_length_u64(el_abs_u64(forms[i].row[j])) > row_bits) {
+        }
+        for (unsigned j = 0; j < 3; j++) {
+            form->at[j] = el_shift_i64(form->exact[j], -(*exponent + FORM_BITS));
+            if (el_abs_u64(form->at[j]) >> row_bits != 0) {
                 return false;
             }
         }
-        forms[i].offset = sign * el_shift_i64(offset, 46 - FORM_BITS);
     }
     return true;
 }
 
-/* Whether the sphere lies beyond the plane `form >= 0`. Rows and offsets are rounded to a unit, and a row times a
- * position is off by 2^16 units then: the sphere gets that much more room. */
-static bool is_beyond(const el_form *plane, const el_mesh *mesh)
+/* Whether the sphere lies outside of one of the planes of the view: form 2 less near, far less form 2, and with form 2 or 1
+ * for w, w - x, w + x, w - y, w + y; inside where they are not negative. They are divided by a power of two that is larger
+ * than 1 + focal, so that their values are no larger than the forms'. Rows and offsets are rounded to a unit, and a row
+ * times a position is off by 2^16 units then: the sphere gets that much more room. */
+static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el_form forms[3],
+                              const el_factor factors[3])
 {
-    const int64_t reach = (int64_t)(row_length(plane->row) * mesh->radius);
-    return form_at_centre(plane, mesh) + reach + (1LL << 20) < 0;
-}
-
-static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el_form forms[3])
-{
-    const el_form *const distance = &forms[2];
-    el_form plane = *distance;
-    plane.offset = distance->offset - ((int64_t)view->near_q16 << (FORM_BITS - 16));
-    if (is_beyond(&plane, mesh)) {
-        return true;
-    }
-    plane.offset = ((int64_t)view->far_q16 << (FORM_BITS - 16)) - distance->offset;
-    for (unsigned j = 0; j < 3; j++) {
-        plane.row[j] = -distance->row[j];
-    }
-    if (is_beyond(&plane, mesh)) {
-        return true;
-    }
-    for (unsigned i = 0; i < 4; i++) {
-        /* w - x, w + x, w - y, w + y: inside where they are not negative. Divided by a power of two that is larger than
-         * 1 + focal, so that the plane's values are no larger than the forms'. */
-        const el_form *const side = &forms[i / 2];
-        const el_factor focal = view->focal[i / 2];
-        const int sign = (i & 1U) != 0 ? 1 : -1;
-        const int shift = focal.exponent < 31 ? 32 - focal.exponent : 1;
-        const bool perspective = view->projection == EL_PERSPECTIVE;
-        const int64_t one = (int64_t)1 << FORM_BITS;
-        for (unsigned j = 0; j < 3; j++) {
-            plane.row[j] =
-                sign * scale_by(side->row[j], focal, shift) + (perspective ? el_shift_i64(distance->row[j], shift) : 0);
+    static const el_form constant = {.at = {0, 0, 0, (int64_t)1 << FORM_BITS}};
+    const el_form *const w = is_orthographic(view) ? &constant : &forms[2];
+    for (unsigned i = 0; i < 6; i++) {
+        const el_factor factor = factors[i / 2];
+        const int shift = el_max_i32(1, 32 - factor.exponent);
+        const bool upper = (i & 1U) != 0;
+        el_form plane;
+        for (unsigned j = 0; j < 4; j++) {
+            const int64_t scaled = scale_by(forms[i / 2].at[j], factor, shift);
+            plane.at[j] = (upper ? -scaled : scaled) + (i < 4 ? el_shift_i64(w->at[j], shift) : 0);
         }
-        plane.offset =
-            sign * scale_by(side->offset, focal, shift) + el_shift_i64(perspective ? distance->offset : one, shift);
-        if (is_beyond(&plane, mesh)) {
+        if (i >= 4) {
+            const int64_t limit_q16 = upper ? view->far_q16 : -(int64_t)view->near_q16;
+            plane.at[OFFSET] += limit_q16 * ((int64_t)1 << (FORM_BITS - 16)) >> shift;
+        }
+        if (form_at_centre(&plane, mesh) + form_reach(&plane, mesh) + (1LL << 20) < 0) {
             return true;
         }
     }
@@ -254,14 +257,14 @@ static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el
 /* The most that |form| can be within the sphere, below 2^62. */
 static uint64_t bound_of(const el_form *form, const el_mesh *mesh)
 {
-    return el_abs_u64(form_at_centre(form, mesh)) + row_length(form->row) * (mesh->radius + 1U);
+    return el_abs_u64(form_at_centre(form, mesh)) + (uint64_t)form_reach(form, mesh);
 }
 
 /* In orthographic projection w is constant and may be any unit: 2^w_log2 world units, no less than the mesh's distance can
  * be, so that x and y have the bits that d needs anyway, wherever the camera stands. */
 static int choose_w_log2(const el_view *view, const el_mesh *mesh, const el_form forms[3])
 {
-    if (view->projection == EL_PERSPECTIVE) {
+    if (!is_orthographic(view)) {
         return 0;
     }
     return el_max_i32(0, el_bit_length_u64(bound_of(&forms[2], mesh)) - FORM_BITS);
@@ -273,7 +276,7 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
 {
     /* Wide fields of view have focal factors up to 2^17, so the largest coordinate is taken with 22 bits less. */
     enum { COARSE = 22 };
-    int64_t largest = view->projection == EL_PERSPECTIVE ? 1 : (int64_t)1 << (FORM_BITS - COARSE + w_log2);
+    int64_t largest = is_orthographic(view) ? (int64_t)1 << (FORM_BITS - COARSE + w_log2) : 1;
     for (unsigned i = 0; i < 3; i++) {
         /* Saturated where it does not fit: far beyond what MIN_UNIT_LOG2 lets through. */
         const int64_t scaled = scale_by((int64_t)bound_of(&forms[i], mesh), factors[i], COARSE);
@@ -286,75 +289,11 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
  * fraction of one across. */
 enum { MIN_UNIT_LOG2 = 0, MIN_W_BITS_ORTHOGRAPHIC = 8 };
 
-int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
+/* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32; w_log2: of the constant w. */
+static void make_orthographic(el_transform *transform, const el_view *view, int unit_log2, int w_log2)
 {
-    el_form forms[3];
-    int exponent;
-    if (outside_world(pose->position_q16) || outside_unit(pose->rotation_q30) || pose->scale_q16 == 0 ||
-        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms, &exponent)) {
-        return EL_ERROR_RANGE;
-    }
-    if (sphere_is_outside(view, mesh, forms)) {
-        return EL_CULLED;
-    }
-
-    const el_factor one = {.mantissa = 1U << 30, .exponent = 30};
-    const int w_log2 = choose_w_log2(view, mesh, forms);
-    el_factor factors[3] = {view->focal[0], view->focal[1], one};
-    factors[0].exponent = (int16_t)(factors[0].exponent - w_log2);
-    factors[1].exponent = (int16_t)(factors[1].exponent - w_log2);
-    const int unit_log2 = choose_unit(view, mesh, forms, factors, w_log2);
-    if (unit_log2 < MIN_UNIT_LOG2 ||
-        (view->projection == EL_ORTHOGRAPHIC && unit_log2 + w_log2 < MIN_W_BITS_ORTHOGRAPHIC)) {
-        return EL_ERROR_RANGE;
-    }
-
-    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
-    int64_t rows[9];
-    uint64_t all = 0;
-    for (unsigned i = 0; i < 9; i++) {
-        rows[i] = scale_by(forms[i / 3].exact[i % 3], factors[i / 3], -(exponent + unit_log2 + 31));
-        all |= el_abs_u64(rows[i]);
-    }
-    const int excess = el_bit_length_u64(all) - 31;
-    const int drop = excess <= 0 ? 0 : (excess > 30 ? 30 : excess);
-    for (unsigned i = 0; i < 9; i++) {
-        transform->rows[i / 3][i % 3] = (int32_t)el_shift_i64(rows[i], drop);
-    }
-    transform->shift = (uint8_t)(31 - drop);
-    for (unsigned i = 0; i < 3; i++) {
-        const int shift = FORM_BITS - unit_log2 - transform->shift;
-        /* Rounding of the shifted sum is made here, once. */
-        const int64_t half = (int64_t)1 << (transform->shift - 1);
-        transform->offsets[i] = scale_by(forms[i].offset, factors[i], shift) + half;
-    }
-
-    transform->orthographic = view->projection == EL_ORTHOGRAPHIC;
-    transform->mirrored = is_reflection(view->axes_q30) != is_reflection(pose->rotation_q30);
-    transform->guard_shift[0] = view->guard_shift[0];
-    transform->guard_shift[1] = view->guard_shift[1];
-    transform->size[0] = view->size[0];
-    transform->size[1] = view->size[1];
-
-    /* The sphere reaches beyond the near plane, so near < 2^30 in the draw's unit. */
-    const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
-    const int64_t far_q32 = el_shift_i64(view->far_q16, 16 - unit_log2 - 32);
-    transform->near_q32 = (uint64_t)near_q32;
-    transform->near_shift = (int8_t)(el_bit_length_u64((uint64_t)near_q32) - 32);
-    transform->near_bits = (uint32_t)(transform->near_shift >= 0 ? (uint64_t)near_q32 >> transform->near_shift
-                                                                 : (uint64_t)near_q32 << -transform->near_shift);
-    transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
-    transform->far = far_q32 >= (int64_t)INT32_MAX << 32 ? INT32_MAX : (int32_t)((far_q32 + 0xFFFFFFFFLL) >> 32);
-    transform->constant_w = 0;
-    if (!transform->orthographic) {
-        transform->depth_scale = view->depth_scale_q12;
-        transform->depth_shift = 12;
-        return EL_VISIBLE;
-    }
     transform->constant_w = (int32_t)el_shift_i64(1, -(unit_log2 + w_log2));
-    /* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32. */
-    const uint64_t range = (uint64_t)(view->far_q16 - view->near_q16); /* Q16 world units */
-    uint64_t scale = ((uint64_t)EL_DEPTH_MAX << 46) / range;
+    uint64_t scale = divide((uint64_t)EL_DEPTH_MAX << 46, view->far_q16 - view->near_q16); /* Q16 world units */
     int shift = 46 - 16 + unit_log2;
     const int bits = el_bit_length_u64(scale) - 32;
     if (bits > 0) {
@@ -363,6 +302,72 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     }
     transform->depth_scale = (uint32_t)scale;
     transform->depth_shift = (uint8_t)shift;
+}
+
+int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
+{
+    el_form forms[3];
+    int exponent;
+    if (check_place(pose->rotation_q30, pose->position_q16) != EL_OK || pose->scale_q16 == 0 ||
+        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms, &exponent)) {
+        return EL_ERROR_RANGE;
+    }
+    el_factor factors[3] = {view->focal[0], view->focal[1], {.mantissa = 1U << 30, .exponent = 30}};
+    if (sphere_is_outside(view, mesh, forms, factors)) {
+        return EL_CULLED;
+    }
+
+    const int w_log2 = choose_w_log2(view, mesh, forms);
+    factors[0].exponent = (int16_t)(factors[0].exponent - w_log2);
+    factors[1].exponent = (int16_t)(factors[1].exponent - w_log2);
+    const int unit_log2 = choose_unit(view, mesh, forms, factors, w_log2);
+    if (unit_log2 < MIN_UNIT_LOG2 || (is_orthographic(view) && unit_log2 + w_log2 < MIN_W_BITS_ORTHOGRAPHIC)) {
+        return EL_ERROR_RANGE;
+    }
+
+    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
+    uint64_t all = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned j = 0; j < 3; j++) {
+            int64_t *const element = &forms[i].exact[j];
+            *element = scale_by(*element, factors[i], -(exponent + unit_log2 + 31));
+            all |= el_abs_u64(*element);
+        }
+    }
+    const int drop = el_max_i32(0, el_min_i32(30, el_bit_length_u64(all) - 31));
+    transform->shift = (uint8_t)(31 - drop);
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned j = 0; j < 3; j++) {
+            transform->rows[i][j] = (int32_t)el_shift_i64(forms[i].exact[j], drop);
+        }
+        /* Rounding of the shifted sum is made here, once. */
+        const int64_t half = (int64_t)1 << (transform->shift - 1);
+        transform->offsets[i] =
+            scale_by(forms[i].at[OFFSET], factors[i], FORM_BITS - unit_log2 - transform->shift) + half;
+    }
+
+    transform->orthographic = is_orthographic(view);
+    transform->mirrored = is_reflection(view->axes_q30) != is_reflection(pose->rotation_q30);
+    memcpy(transform->guard_shift, view->guard_shift, sizeof transform->guard_shift);
+    memcpy(transform->size, view->size, sizeof transform->size);
+
+    /* The sphere reaches beyond the near plane, so near < 2^30 in the draw's unit. */
+    const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
+    const int64_t far_q32 = el_shift_i64(view->far_q16, 16 - unit_log2 - 32);
+    transform->near_q32 = (uint64_t)near_q32;
+#if !EL_SMALL_CODE
+    transform->near_shift = (int8_t)(el_bit_length_u64((uint64_t)near_q32) - 32);
+    transform->near_bits = (uint32_t)(transform->near_shift >= 0 ? (uint64_t)near_q32 >> transform->near_shift
+                                                                 : (uint64_t)near_q32 << -transform->near_shift);
+#endif
+    transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
+    transform->far = far_q32 >= (int64_t)INT32_MAX << 32 ? INT32_MAX : (int32_t)((far_q32 + 0xFFFFFFFFLL) >> 32);
+    transform->constant_w = 0;
+    transform->depth_scale = view->depth_scale_q12;
+    transform->depth_shift = 12;
+    if (is_orthographic(view)) {
+        make_orthographic(transform, view, unit_log2, w_log2);
+    }
     return EL_VISIBLE;
 }
 
@@ -381,27 +386,32 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     vertex.x = form_value(transform, 0, position);
     vertex.y = form_value(transform, 1, position);
     vertex.d = form_value(transform, 2, position);
-    vertex.w = transform->orthographic ? transform->constant_w : vertex.d;
+    vertex.w = el_transform_is_orthographic(transform) ? transform->constant_w : vertex.d;
     return vertex;
+}
+
+/* EL_CODE_LEFT and _RIGHT, and _GUARD, of one coordinate, whatever it and w are: ~w is -w - 1, and v / 2^shift rounded down
+ * compares with a whole number as v does with that number times 2^shift. */
+static unsigned side_code(int32_t v, int32_t w, unsigned guard_shift)
+{
+    unsigned code = 0;
+    if (v <= ~w) {
+        code |= EL_CODE_LEFT | (v >> guard_shift <= ~w ? EL_CODE_GUARD : 0U);
+    }
+    if (v > w) {
+        code |= EL_CODE_RIGHT | ((v - 1) >> guard_shift >= w ? EL_CODE_GUARD : 0U);
+    }
+    return code;
 }
 
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
 {
-    unsigned code = 0;
+    _Static_assert(EL_CODE_BELOW == EL_CODE_LEFT << 2 && EL_CODE_ABOVE == EL_CODE_RIGHT << 2, "y's codes follow x's");
+    const unsigned x = side_code(vertex->x, vertex->w, transform->guard_shift[0]);
+    const unsigned y = side_code(vertex->y, vertex->w, transform->guard_shift[1]);
+    unsigned code = x | (y & EL_CODE_GUARD) | (y & (EL_CODE_LEFT | EL_CODE_RIGHT)) << 2;
     code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
     code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    const int64_t w = vertex->w;
-    code |= vertex->x < -w ? EL_CODE_LEFT : 0U;
-    code |= vertex->x > w ? EL_CODE_RIGHT : 0U;
-    code |= vertex->y < -w ? EL_CODE_BELOW : 0U;
-    code |= vertex->y > w ? EL_CODE_ABOVE : 0U;
-    if ((code & (EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE)) != 0) {
-        const int64_t x_limit = w * (1 << transform->guard_shift[0]);
-        const int64_t y_limit = w * (1 << transform->guard_shift[1]);
-        if (vertex->x < -x_limit || vertex->x > x_limit || vertex->y < -y_limit || vertex->y > y_limit) {
-            code |= EL_CODE_GUARD;
-        }
-    }
     return (uint8_t)code;
 }
 
@@ -418,7 +428,7 @@ static uint16_t depth_of(const el_transform *transform, const el_clip_vertex *ve
                          const el_divisor *divisor)
 {
     uint32_t z;
-    if (transform->orthographic) {
+    if (el_transform_is_orthographic(transform)) {
         const uint64_t distance = (uint64_t)(vertex->d - transform->near);
         const uint64_t product = distance * transform->depth_scale;
         z = (uint32_t)((product + ((1ULL << transform->depth_shift) >> 1)) >> transform->depth_shift);
@@ -450,7 +460,7 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
     keep_reciprocal(screen, &divisor);
 }
 
-#if !defined(__OPTIMIZE_SIZE__)
+#if !EL_SMALL_CODE
 /* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.5 units of 2^(s - 31), s being
  * the divisor's shift. Times `half` that is the result's magnitude with 31 - s bits of fraction, too low by less than
  * 2 half units. False where that might matter: near a tie, and for a w of few bits. */
@@ -499,7 +509,7 @@ static inline bool depth_fast(const el_transform *transform, const el_divisor *d
 
 static void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
 {
-#if defined(__OPTIMIZE_SIZE__)
+#if EL_SMALL_CODE
     el_project(transform, vertex, screen);
 #else
     const uint32_t w = (uint32_t)vertex->w;
@@ -512,7 +522,7 @@ static void project_inside(const el_transform *transform, const el_clip_vertex *
     if (!fast || !snap_fast(-vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
         screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
     }
-    if (transform->orthographic || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
+    if (el_transform_is_orthographic(transform) || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
         screen->z = depth_of(transform, vertex, w, &divisor);
     }
     keep_reciprocal(screen, &divisor);

@@ -8,9 +8,11 @@
 #ifndef EL_GEOMETRY_TRANSFORM_H
 #define EL_GEOMETRY_TRANSFORM_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/divide.h"
+#include "base/options.h"
 #include "base/status.h"
 #include "geometry/limits.h"
 #include "geometry/mesh.h"
@@ -56,22 +58,28 @@ enum {
 };
 
 typedef struct el_transform {
-    int32_t rows[3][3]; /* x, y, d per position unit, times 2^shift */
-    int64_t offsets[3]; /* |offset| < 2^62 */
-    uint8_t shift;      /* 1..31 */
+    uint8_t shift; /* 1..31 */
     uint8_t orthographic;
     uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
     uint8_t guard_shift[2];
+    uint8_t depth_shift;
+    int8_t near_shift;
     uint16_t size[2];
+    int32_t rows[3][3]; /* x, y, d per position unit, times 2^shift */
+    int64_t offsets[3]; /* |offset| < 2^62 */
     int32_t near;       /* in the draw's unit: 1 <= near < 2^30 */
     int32_t far;        /* likewise, or INT32_MAX */
     int32_t constant_w; /* orthographic: w of every vertex */
+    uint32_t near_bits; /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
+                           give near 31 bits */
     uint64_t near_q32;  /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
-    uint32_t near_bits; /* near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras give near 31 bits */
-    int8_t near_shift;
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
-    uint8_t depth_shift;
 } el_transform;
+
+static inline bool el_transform_is_orthographic(const el_transform *transform)
+{
+    return EL_WITH_ORTHOGRAPHIC && transform->orthographic != 0;
+}
 
 typedef enum el_visibility { EL_VISIBLE = 0, EL_CULLED = 1 } el_visibility;
 

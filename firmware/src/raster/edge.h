@@ -43,6 +43,12 @@ static inline int32_t el_edge_x(const el_edge *edge)
 }
 
 #if EL_SUBPIXEL_BITS == 4
+#if EL_SMALL_CODE
+static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
+{
+    return el_ratio_q32(dx, dy);
+}
+#else
 /* Edges up to 511 units high and 1023 wide: a product with a reciprocal instead of three divisions. The step is too low by
  * |dx| units at most, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
  * 525,314 units. */
@@ -57,6 +63,7 @@ static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
     return dx >= 0 ? (int64_t)el_multiply_u64(reciprocal, dx)
                    : -(int64_t)el_multiply_u64((uint64_t)reciprocal + 1U, -dx);
 }
+#endif
 #endif
 
 /* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within

@@ -1,6 +1,7 @@
 /* From a record of the display list back to its mesh: colours, light and texture coordinates of the corners. Light is
  * computed here, for triangles that are drawn, not for every vertex of the mesh. */
 #include <stddef.h>
+#include <string.h>
 
 #include "base/rgb565.h"
 #include "raster/list.h"
@@ -27,39 +28,40 @@ static const uint8_t *base_colour(const el_draw_state *draw, uint16_t vertex)
     return draw->mesh->colours != NULL ? draw->mesh->colours[vertex] : draw->material->colour;
 }
 
-static bool is_lit(const el_draw_state *draw)
-{
-    return draw->material->light != NULL;
-}
-
 /* colour * light / 255, 8.8 */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
     return (uint16_t)((colour * light + 127U) / 255U);
 }
 
-void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3])
+/* Three channels of 8.8 for one of the mesh's vertices. */
+static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t vertex, bool turned, uint16_t rgb_q8[3])
 {
-    const uint8_t *const colour = base_colour(draw, vertex);
-    const uint32_t light = is_lit(draw) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
+    const uint32_t light = el_is_lit(draw->material) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
     for (unsigned i = 0; i < 3; i++) {
         rgb_q8[i] = lit_q8(colour[i], light);
     }
+}
+
+void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3])
+{
+    shade(draw, base_colour(draw, vertex), vertex, turned, rgb_q8);
 }
 
 /* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
 static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turned)
 {
     const uint16_t *const vertices = draw->mesh->triangles[index];
-    const bool mean = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0;
-    const unsigned count = mean ? 3 : 1;
+    const unsigned count = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? 3 : 1;
     uint32_t sums[3] = {0, 0, 0};
     for (unsigned i = 0; i < count; i++) {
-        const uint8_t *const colour =
-            draw->mesh->triangle_colours != NULL ? draw->mesh->triangle_colours[index] : base_colour(draw, vertices[i]);
-        const uint32_t light = is_lit(draw) ? light_q8(draw, draw->mesh->normals[vertices[i]], turned) : 0xFF00U;
+        uint16_t rgb_q8[3];
+        shade(draw,
+              draw->mesh->triangle_colours != NULL ? draw->mesh->triangle_colours[index]
+                                                   : base_colour(draw, vertices[i]),
+              vertices[i], turned, rgb_q8);
         for (unsigned channel = 0; channel < 3; channel++) {
-            sums[channel] += lit_q8(colour[channel], light);
+            sums[channel] += rgb_q8[channel];
         }
     }
     uint8_t rgb[3];
@@ -98,41 +100,35 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
     int32_t y[3];
     for (unsigned i = 0; i < 3; i++) {
         const el_point *const point = &record->at.points[i];
-        x[i] = point->x;
-        y[i] = point->y;
-        corners[i].x = point->x;
-        corners[i].y = point->y;
+        corners[i].x = x[i] = point->x;
+        corners[i].y = y[i] = point->y;
         corners[i].z = point->z;
     }
-    const bool turned =
-        (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 && el_shows_back(draw, el_doubled_area(x, y));
+    const bool turned = el_is_lit(draw->material) && (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
+                        el_shows_back(draw, el_doubled_area(x, y));
 
-    if (run->kind != EL_RECORD_PLAIN) {
+    if (EL_WITH_TEXTURE && run->kind != EL_RECORD_PLAIN) {
         gather_w((const el_record_perspective *)(const void *)record, corners);
     }
     if (shading == EL_SHADE_FLAT) {
         surface->colour = flat_colour(draw, record->index, turned);
-        return;
     }
-    const bool textured = shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD;
-    const bool coloured = shading == EL_SHADE_GOURAUD || shading == EL_SHADE_TEXTURED_GOURAUD;
-    for (unsigned i = 0; i < 3; i++) {
+    for (unsigned i = 0; i < 3 && (el_has_texture(shading) || el_has_colours(shading)); i++) {
+        el_corner *const corner = &corners[i];
         if (run->kind == EL_RECORD_CLIPPED) {
             const el_attributes *const own = &((const el_record_clipped *)(const void *)record)->attributes[i];
-            corners[i].u_q16 = own->u_q16;
-            corners[i].v_q16 = own->v_q16;
-            for (unsigned channel = 0; channel < 3; channel++) {
-                corners[i].rgb_q8[channel] = own->rgb_q8[channel];
-            }
+            corner->u_q16 = own->u_q16;
+            corner->v_q16 = own->v_q16;
+            memcpy(corner->rgb_q8, own->rgb_q8, sizeof corner->rgb_q8);
             continue;
         }
         const uint16_t vertex = draw->mesh->triangles[record->index][i];
-        if (textured) {
-            corners[i].u_q16 = draw->mesh->uvs[vertex][0] * (1 << 12);
-            corners[i].v_q16 = draw->mesh->uvs[vertex][1] * (1 << 12);
+        if (el_has_texture(shading)) {
+            corner->u_q16 = draw->mesh->uvs[vertex][0] * (1 << 12);
+            corner->v_q16 = draw->mesh->uvs[vertex][1] * (1 << 12);
         }
-        if (coloured) {
-            el_shade_vertex(draw, vertex, turned, corners[i].rgb_q8);
+        if (el_has_colours(shading)) {
+            el_shade_vertex(draw, vertex, turned, corner->rgb_q8);
         }
     }
 }

@@ -4,21 +4,16 @@
 
 #include "base/fixed.h"
 
-static uint32_t round_up(size_t bytes)
-{
-    return (uint32_t)((bytes + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT);
-}
+#define ROUND_UP(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
 
 static uint32_t record_bytes(el_record_kind kind)
 {
-    switch (kind) {
-    case EL_RECORD_PLAIN:
-        return round_up(sizeof(el_record));
-    case EL_RECORD_PERSPECTIVE:
-        return round_up(sizeof(el_record_perspective));
-    default:
-        return round_up(sizeof(el_record_clipped));
-    }
+    static const uint8_t bytes[EL_RECORD_KINDS] = {
+        [EL_RECORD_PLAIN] = ROUND_UP(sizeof(el_record)),
+        [EL_RECORD_PERSPECTIVE] = ROUND_UP(sizeof(el_record_perspective)),
+        [EL_RECORD_CLIPPED] = ROUND_UP(sizeof(el_record_clipped)),
+    };
+    return bytes[kind];
 }
 
 void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines)
@@ -45,7 +40,7 @@ static uint16_t name_of(const el_list *list, const void *at)
 
 static void put_into_bin(el_list *list, el_record *record, int32_t row)
 {
-    uint16_t *const bin = &list->bins[row / list->band_lines];
+    uint16_t *const bin = &list->bins[(uint32_t)row / list->band_lines];
     const uint16_t name = name_of(list, record);
     if (*bin == 0) {
         record->next = name;
@@ -61,7 +56,7 @@ el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_ki
 {
     el_run *run = el_list_at(list, list->run);
     const bool opens = list->run == 0 || run->kind != (uint8_t)kind || run->count == UINT16_MAX;
-    const uint32_t needed = record_bytes(kind) + (opens ? round_up(sizeof(el_run)) : 0U);
+    const uint32_t needed = record_bytes(kind) + (opens ? ROUND_UP(sizeof(el_run)) : 0U);
     if (needed > list->end || list->used > list->end - needed) {
         return NULL;
     }
@@ -69,7 +64,7 @@ el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_ki
         list->run = (uint16_t)(list->used / EL_LIST_UNIT);
         run = el_list_at(list, list->run);
         *run = (el_run){.draw = *draw, .count = 0, .kind = (uint8_t)kind};
-        list->used += round_up(sizeof(el_run));
+        list->used += ROUND_UP(sizeof(el_run));
     }
     el_record *const record = (el_record *)(void *)(list->base + list->used);
     list->used += record_bytes(kind);
@@ -101,8 +96,8 @@ void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end)
         el_run *const run = (el_run *)(void *)(list->base + run_at);
         memmove(run, old_run, sizeof *run);
         run->count = 0;
-        list->used += round_up(sizeof *run);
-        from += round_up(sizeof *run);
+        list->used += ROUND_UP(sizeof *run);
+        from += ROUND_UP(sizeof *run);
         for (uint16_t i = 0; i < count; i++, from += stride) {
             const el_record *const old = (const el_record *)(const void *)(list->base + from);
             const int32_t row = el_max_i32(first_row(old), row_begin);

@@ -86,13 +86,13 @@ typedef struct el_record_clipped {
 } el_record_clipped;
 
 typedef struct el_list {
+    uint16_t run; /* the run that takes records; 0: none */
+    uint16_t bin_count;
+    uint16_t band_lines;
     uint8_t *base;  /* 8-byte aligned */
     uint32_t end;   /* bytes that may be used now */
     uint32_t used;  /* bytes */
     uint16_t *bins; /* last record of each band; 0: none */
-    uint16_t bin_count;
-    uint16_t band_lines;
-    uint16_t run; /* the run that takes records; 0: none */
 } el_list;
 
 static inline void *el_list_at(const el_list *list, uint16_t name)

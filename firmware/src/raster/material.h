@@ -2,17 +2,31 @@
 #ifndef EL_RASTER_MATERIAL_H
 #define EL_RASTER_MATERIAL_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
+#include "base/options.h"
 #include "geometry/mesh.h"
 
+/* Bit 0: vertex colours; bit 1: a texture. base/options.h can leave each of them out but the first. */
 typedef enum el_shading {
-    EL_SHADE_FLAT,             /* one colour per triangle */
-    EL_SHADE_GOURAUD,          /* vertex colours, linear on the screen */
-    EL_SHADE_TEXTURED,         /* texels, perspective-correct */
-    EL_SHADE_TEXTURED_GOURAUD, /* texels times vertex colours */
-    EL_SHADE_OVERDRAW          /* each pixel drawn adds 1 to what is there: counts, not colours */
+    EL_SHADE_FLAT = 0,             /* one colour per triangle */
+    EL_SHADE_GOURAUD = 1,          /* vertex colours, linear on the screen */
+    EL_SHADE_TEXTURED = 2,         /* texels, perspective-correct */
+    EL_SHADE_TEXTURED_GOURAUD = 3, /* texels times vertex colours */
+    EL_SHADE_OVERDRAW = 4          /* each pixel drawn adds 1 to what is there: counts, not colours */
 } el_shading;
+
+static inline bool el_has_colours(el_shading shading)
+{
+    return EL_WITH_GOURAUD && (shading & 1U) != 0;
+}
+
+static inline bool el_has_texture(el_shading shading)
+{
+    return EL_WITH_TEXTURE && (shading & 2U) != 0;
+}
 
 enum {
     EL_MATERIAL_TWO_SIDED = 1, /* draws back faces too; their normals are turned around */
@@ -36,5 +50,10 @@ typedef struct el_material {
     const el_texture *texture; /* for the textured shadings */
     const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
 } el_material;
+
+static inline bool el_is_lit(const el_material *material)
+{
+    return EL_WITH_LIGHT && material->light != NULL;
+}
 
 #endif

@@ -2,7 +2,10 @@
 
 #include "base/fixed.h"
 
-#if EL_SUBPIXEL_BITS == 4
+EL_INLINE_HERE uint64_t el_plane_times(uint64_t gradient, int32_t count);
+EL_INLINE_HERE int64_t el_doubled_area(const int32_t x[3], const int32_t y[3]);
+
+#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
 static inline bool within_small(int32_t difference)
 {
     return (uint32_t)(difference + EL_SMALL_SUB) <= 2U * EL_SMALL_SUB;
@@ -19,12 +22,15 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
     frame->dy2 = y[2] - y[0];
     const int64_t area = el_doubled_area(x, y);
     frame->sign = area < 0 ? -1 : 1;
-#if EL_SUBPIXEL_BITS == 4
+#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
     frame->small =
         within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) && within_small(frame->dy2);
-    frame->area = el_divisor_make((uint32_t)el_abs_u64(area));
 #else
     frame->small = false;
+#endif
+#if EL_SUBPIXEL_BITS == 4
+    frame->area = el_divisor_make((uint32_t)el_abs_u64(area));
+#else
     frame->area = el_abs_u64(area);
 #endif
 }
@@ -81,7 +87,7 @@ static void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor
 /* The same quotients, in 32 bits. */
 static void small_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int32_t d1, int32_t d2)
 {
-#if EL_SUBPIXEL_BITS == 4
+#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
     if (frame->small) {
         /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27, and 16 times that below 2^31. */
         const int32_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;

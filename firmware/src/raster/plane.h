@@ -72,20 +72,20 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
 void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3]);
 
 /* A plane's gradient times a number of pixels or rows, modulo 2^64; |count| < 2^22. */
-static inline uint64_t el_plane_times(uint64_t gradient, int32_t count)
+EL_INLINE uint64_t el_plane_times(uint64_t gradient, int32_t count)
 {
-    return (uint32_t)(count + 0xFFFF) <= 2U * 0xFFFFU ? el_multiply_u64(gradient, count)
-                                                      : gradient * (uint64_t)(int64_t)count;
+    return !EL_SMALL_CODE && (uint32_t)(count + 0xFFFF) <= 2U * 0xFFFFU ? el_multiply_u64(gradient, count)
+                                                                        : gradient * (uint64_t)(int64_t)count;
 }
 
 /* Doubled area; positive when the corners run clockwise as seen on the screen (y down). Exact. */
-static inline int64_t el_doubled_area(const int32_t x[3], const int32_t y[3])
+EL_INLINE int64_t el_doubled_area(const int32_t x[3], const int32_t y[3])
 {
     const int32_t dx1 = x[1] - x[0];
     const int32_t dy1 = y[1] - y[0];
     const int32_t dx2 = x[2] - x[0];
     const int32_t dy2 = y[2] - y[0];
-#if defined(__ARM_ARCH_6M__)
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
     /* Most differences are within +-2^14, and both products below 2^29 then. */
     const uint32_t bias = 1U << 14;
     if ((((uint32_t)dx1 + bias) | ((uint32_t)dy1 + bias) | ((uint32_t)dx2 + bias) | ((uint32_t)dy2 + bias)) >> 15 ==

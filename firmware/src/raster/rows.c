@@ -5,7 +5,7 @@
 #include "raster/triangle.h"
 
 /* Each loop is compiled anew with its choices known, where speed counts; one loop that asks takes half the memory. */
-#if defined(__OPTIMIZE_SIZE__)
+#if EL_SMALL_CODE
 #define SPECIALISED inline
 #else
 #define SPECIALISED inline __attribute__((always_inline))
@@ -25,8 +25,15 @@ typedef struct span {
     uint32_t red_step, green_step, blue_step;
 } span;
 
-/* What a loop does: bits of a number that the compiler knows, so that each loop holds only what it needs. */
-enum { DEPTH = 1, COLOURS = 2, TEXTURE = 4, DITHER = 8, COUNT = 16 };
+/* What a loop does: bits of a number that the compiler knows, so that each loop holds only what it needs. What options.h
+ * leaves out has no bit. */
+enum {
+    DEPTH = 1,
+    COLOURS = EL_WITH_GOURAUD ? 2 : 0,
+    TEXTURE = EL_WITH_TEXTURE ? 4 : 0,
+    COUNT = EL_WITH_OVERDRAW ? 8 : 0,
+    DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
+};
 
 static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
 {
@@ -247,7 +254,7 @@ static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target
     row r = {.colour = target->colour + offset, .depth = target->depth + ((kind & DEPTH) != 0 ? offset : 0)};
     uint32_t spans = 0;
     uint32_t pixels = 0;
-    stats->rows += (uint32_t)(y_end - y);
+    el_count(&stats->rows, (uint32_t)(y_end - y));
     while (y < y_end) {
         const int32_t left = el_edge_x(&triangle->left);
         const int32_t right = el_edge_x(&triangle->right);
@@ -274,49 +281,51 @@ static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target
             bend(triangle, kind);
         }
     }
-    stats->spans += spans;
-    stats->pixels += pixels;
+    el_count(&stats->spans, spans);
+    el_count(&stats->pixels, pixels);
 }
 
 static unsigned kind_of(const el_surface *surface)
 {
-    static const uint8_t kinds[] = {
-        [EL_SHADE_FLAT] = 0,           [EL_SHADE_GOURAUD] = COLOURS,
-        [EL_SHADE_TEXTURED] = TEXTURE, [EL_SHADE_TEXTURED_GOURAUD] = TEXTURE | COLOURS,
-        [EL_SHADE_OVERDRAW] = COUNT,
-    };
-    const unsigned kind = kinds[surface->shading];
+    _Static_assert(EL_SHADE_GOURAUD << 1 == 2 && EL_SHADE_TEXTURED << 1 == 4 && EL_SHADE_OVERDRAW << 1 == 8,
+                   "a shading's bits are those of its loop");
+    const unsigned kind = (unsigned)surface->shading << 1 & (COLOURS | TEXTURE | COUNT);
     const bool dithers = surface->dither && (kind & COLOURS) != 0;
     const bool depth = surface->depth && (kind & COUNT) == 0;
     return kind | (dithers ? DITHER : 0U) | (depth ? DEPTH : 0U);
 }
 
-/* A loop of its own for each kind there is. */
+#if EL_SMALL_CODE
+void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
+{
+    draw_rows(triangle, target, stats, kind_of(&triangle->surface));
+}
+#else
+/* A loop of its own for each kind there is; kinds that options.h makes equal have one. */
 #define DRAW(kind)                                                                                                     \
-    case (kind):                                                                                                       \
+    if (asked == (kind)) {                                                                                             \
         draw_rows(triangle, target, stats, (kind));                                                                    \
-        break
+        return;                                                                                                        \
+    }
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
-    switch (kind_of(&triangle->surface)) {
-        DRAW(0);
-        DRAW(DEPTH);
-        DRAW(COLOURS);
-        DRAW(COLOURS | DEPTH);
-        DRAW(COLOURS | DITHER);
-        DRAW(COLOURS | DITHER | DEPTH);
-        DRAW(TEXTURE);
-        DRAW(TEXTURE | DEPTH);
-        DRAW(TEXTURE | COLOURS);
-        DRAW(TEXTURE | COLOURS | DEPTH);
-        DRAW(TEXTURE | COLOURS | DITHER);
-        DRAW(TEXTURE | COLOURS | DITHER | DEPTH);
-        DRAW(COUNT);
-    default:
-        break;
-    }
+    const unsigned asked = kind_of(&triangle->surface);
+    DRAW(0)
+    DRAW(DEPTH)
+    DRAW(COLOURS)
+    DRAW(COLOURS | DEPTH)
+    DRAW(COLOURS | DITHER)
+    DRAW(COLOURS | DITHER | DEPTH)
+    DRAW(TEXTURE)
+    DRAW(TEXTURE | DEPTH)
+    DRAW(TEXTURE | COLOURS)
+    DRAW(TEXTURE | COLOURS | DEPTH)
+    DRAW(TEXTURE | COLOURS | DITHER)
+    DRAW(TEXTURE | COLOURS | DITHER | DEPTH)
+    DRAW(COUNT)
 }
+#endif
 
 void el_triangle_next_row(el_triangle *triangle)
 {

@@ -113,8 +113,20 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
         const int32_t error_q8 = -(int32_t)triangle->surface.uv_error_log2 * 256;
         /* Rounded up; the constant keeps the dividend positive, so that the division does. */
         const int32_t three = product_q8 - 2 * 256 - error_q8 + ROUNDING_RESERVE_Q8;
-        walk->limit_q8 = (three + 3 * NEVER_Q8 + 2) / 3 - NEVER_Q8;
+        walk->limit_q8 = (int32_t)((uint32_t)(three + 3 * NEVER_Q8 + 2) / 3U) - NEVER_Q8;
     }
+}
+
+/* Truncated towards zero. */
+static int32_t step_of(int32_t way_q16, int32_t pixels)
+{
+#if EL_SMALL_CODE || defined(__ARM_ARCH_6M__)
+    /* Without a divider, by the unsigned division that the rest of the renderer has too. */
+    const uint32_t step = (way_q16 < 0 ? 0U - (uint32_t)way_q16 : (uint32_t)way_q16) / (uint32_t)pixels;
+    return way_q16 < 0 ? -(int32_t)step : (int32_t)step;
+#else
+    return way_q16 / pixels;
+#endif
 }
 
 int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left)
@@ -150,8 +162,8 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
     walk->length = (uint8_t)(i < 0 ? 0 : i);
 
     exact(walk, triangle, (uint32_t)length, &walk->next_u_q16, &walk->next_v_q16);
-    walk->u_step_q16 = (walk->next_u_q16 - walk->u_q16) / length;
-    walk->v_step_q16 = (walk->next_v_q16 - walk->v_q16) / length;
+    walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, length);
+    walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, length);
     return length;
 }
 

@@ -7,22 +7,12 @@
 _Static_assert((EL_EDGE_MAX_ROWS + 3LL) * (EL_SUBPIXEL_BITS == 4 ? 16 : 1) * 2 * EL_GUARD_SUB < 1LL << 32,
                "what is cut off on the way is less than a step of the grid");
 
-static bool is_textured(el_shading shading)
-{
-    return shading == EL_SHADE_TEXTURED || shading == EL_SHADE_TEXTURED_GOURAUD;
-}
-
-static bool has_colours(el_shading shading)
-{
-    return shading == EL_SHADE_GOURAUD || shading == EL_SHADE_TEXTURED_GOURAUD;
-}
-
 uint32_t el_triangle_bytes(el_shading shading)
 {
-    if (is_textured(shading)) {
+    if (el_has_texture(shading)) {
         return sizeof(el_triangle);
     }
-    return has_colours(shading) ? offsetof(el_triangle, perspective) : offsetof(el_triangle, rgb);
+    return el_has_colours(shading) ? offsetof(el_triangle, perspective) : offsetof(el_triangle, rgb);
 }
 
 /* Corners from the top to the bottom, and from left to right where they are level: whichever corner the caller began
@@ -95,13 +85,13 @@ static void make_planes(el_triangle *triangle, const el_corner *const corners[3]
         const uint16_t z[3] = {corners[0]->z, corners[1]->z, corners[2]->z};
         el_plane_make_u16(&triangle->z, frame, z);
     }
-    if (has_colours(shading)) {
+    if (el_has_colours(shading)) {
         for (unsigned i = 0; i < 3; i++) {
             const uint16_t values[3] = {corners[0]->rgb_q8[i], corners[1]->rgb_q8[i], corners[2]->rgb_q8[i]};
             el_channel_make(&triangle->rgb[i], frame, values);
         }
     }
-    if (is_textured(shading)) {
+    if (el_has_texture(shading)) {
         make_perspective(&triangle->perspective, corners, frame);
     }
 }

@@ -45,13 +45,13 @@ typedef struct el_perspective {
 } el_perspective;
 
 typedef struct el_triangle {
+    el_surface surface;
+    int16_t y;        /* next row */
+    int16_t y_middle; /* first row of the lower part */
+    int16_t y_end;
+    bool short_is_left;  /* the side that bends at y_middle */
     el_edge left, right; /* of the current part */
     el_edge lower;       /* the lower part's other edge */
-    int16_t y;           /* next row */
-    int16_t y_middle;    /* first row of the lower part */
-    int16_t y_end;
-    bool short_is_left; /* the side that bends at y_middle */
-    el_surface surface;
     /* What a shading does not use, at the end, need not be in memory. */
     el_plane z;
     el_channel rgb[3];          /* vertex colours, or light on a texture */

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import compare, frames
+from . import compare, frames, size
 from .machines import (
     BENCH,
     CORES,
@@ -39,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--scenes", action="store_true", help="print the frames' instruction counts")
     what.add_argument("--profile", metavar="SCENE", help="print which functions a scene's instructions go to")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
+    what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
+    what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -65,6 +67,13 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
             frames.compare_with_recorded(found, recorded, verdicts)
         else:
             print(f"counts not compared: recorded with gcc {recorded['compiler']}, this is {compiler_version()}")
+    if options.quick or options.size:
+        sizes = size.measure()
+        size.check(sizes, read_recorded(size.RESULT), verdicts)
+        if options.size:
+            print(size.table(sizes))
+    if options.record_size or options.all:
+        size.record(size.measure())
     if options.scenes or options.all:
         found = frames.measure(machines, verdicts)
         for bits in (6, 8):

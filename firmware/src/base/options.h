@@ -1,0 +1,79 @@
+/* What is compiled in. A program that draws with one way of shading need not carry the others: each option set to 0 takes
+ * its code out, and what remains draws the same pixels. tests/bench/results/code_size.json has the bytes of each.
+ *
+ * Set them by -DEL_WITH_TEXTURE=0, by CMake's EDGELINE_WITH_TEXTURE=OFF, or in a header of your own that EL_CONFIG_FILE
+ * names, quotes included: -DEL_CONFIG_FILE='"edgeline_config.h"'. The library and the program that uses it are compiled
+ * with the same options. A draw or a camera that asks for what was left out gets an error and draws nothing. */
+#ifndef EL_BASE_OPTIONS_H
+#define EL_BASE_OPTIONS_H
+
+#ifdef EL_CONFIG_FILE
+#include EL_CONFIG_FILE
+#endif
+
+/* Vertex colours: EL_SHADE_GOURAUD, EL_SHADE_TEXTURED_GOURAUD. Without: EL_ERROR_MATERIAL. */
+#ifndef EL_WITH_GOURAUD
+#define EL_WITH_GOURAUD 1
+#endif
+
+/* Textures: EL_SHADE_TEXTURED, EL_SHADE_TEXTURED_GOURAUD. Without: EL_ERROR_MATERIAL. */
+#ifndef EL_WITH_TEXTURE
+#define EL_WITH_TEXTURE 1
+#endif
+
+/* EL_MATERIAL_DITHER. Without: EL_ERROR_MATERIAL. A panel's own dithering (base/dither.h) stays. */
+#ifndef EL_WITH_DITHER
+#define EL_WITH_DITHER 1
+#endif
+
+/* EL_SHADE_OVERDRAW. Without: EL_ERROR_MATERIAL. */
+#ifndef EL_WITH_OVERDRAW
+#define EL_WITH_OVERDRAW 1
+#endif
+
+/* el_material.light. Without: EL_ERROR_MATERIAL where a material has one. */
+#ifndef EL_WITH_LIGHT
+#define EL_WITH_LIGHT 1
+#endif
+
+/* EL_ORTHOGRAPHIC. Without: EL_ERROR_CAMERA. */
+#ifndef EL_WITH_ORTHOGRAPHIC
+#define EL_WITH_ORTHOGRAPHIC 1
+#endif
+
+/* The work counters (base/stats.h). Without, they stay 0. */
+#ifndef EL_WITH_STATS
+#define EL_WITH_STATS 1
+#endif
+
+/* Triangles keep their set-up from band to band. Without, they are set up anew in each: slower where bands are low. */
+#ifndef EL_WITH_CARRY
+#define EL_WITH_CARRY 1
+#endif
+
+#if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
+     EL_WITH_STATS | EL_WITH_CARRY) &                                                                                  \
+    ~1
+#error "each EL_WITH_ option is 0 or 1"
+#endif
+
+/* 1: of two ways to the same pixels the shorter code, as -Os asks for; 0: the faster. */
+#ifndef EL_SMALL_CODE
+#ifdef __OPTIMIZE_SIZE__
+#define EL_SMALL_CODE 1
+#else
+#define EL_SMALL_CODE 0
+#endif
+#endif
+
+/* Functions of headers: a copy of its own for each file that calls them, to be merged with the caller; or, in small code,
+ * one for the program, which the header's source file holds: EL_INLINE_HERE with the function's declaration. */
+#if EL_SMALL_CODE
+#define EL_INLINE inline
+#define EL_INLINE_HERE extern inline
+#else
+#define EL_INLINE static inline
+#define EL_INLINE_HERE static inline
+#endif
+
+#endif

@@ -1,0 +1,108 @@
+"""What base/options.h leaves out is refused with the error it names; what remains draws the same pixels, also where
+small code takes other ways to them."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from conftest import REPOSITORY, missing
+
+SOURCES = REPOSITORY / "firmware" / "src"
+PROGRAM = Path(__file__).with_name("options_program.c")
+
+ERROR_CAMERA = -4
+ERROR_MATERIAL = -6
+NOTHING = "00000000"
+
+# Ways of drawing of options_program.c, by the option that each needs.
+NEEDS = {
+    "ORTHOGRAPHIC": {"orthographic"},
+    "LIGHT": {"lit", "gouraud-lit"},
+    "GOURAUD": {"gouraud", "gouraud-lit", "gouraud-dithered", "textured-gouraud", "textured-gouraud-dithered"},
+    "TEXTURE": {"textured", "textured-gouraud", "textured-gouraud-dithered"},
+    "DITHER": {"gouraud-dithered", "textured-gouraud-dithered"},
+    "OVERDRAW": {"overdraw"},
+}
+FLAT = tuple(NEEDS)
+
+# Name: status, CRC-32 of the frames, pixels counted.
+Drawn = dict[str, tuple[int, str, int]]
+
+
+def _compile(folder: Path, *flags: str) -> subprocess.CompletedProcess[str]:
+    if shutil.which("cc") is None:
+        missing("no C compiler: cc is not installed")
+    sources = [path for layer in ("base", "geometry", "raster", "frame") for path in (SOURCES / layer).glob("*.c")]
+    command = ["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", str(SOURCES), *flags, str(PROGRAM)]
+    command += [*map(str, sources), "-o", str(folder / "program")]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def _draw(folder: Path, *flags: str) -> Drawn:
+    done = _compile(folder, *flags)
+    assert done.returncode == 0, done.stderr
+    said = subprocess.run([folder / "program"], capture_output=True, text=True, check=True).stdout
+    rows = [line.split() for line in said.splitlines()]
+    return {name: (int(status), crc, int(pixels)) for name, status, crc, pixels in rows}
+
+
+@pytest.fixture(scope="module")
+def everything(tmp_path_factory: pytest.TempPathFactory) -> Drawn:
+    drawn = _draw(tmp_path_factory.mktemp("everything"))
+    assert all(status == 0 for status, _, _ in drawn.values())
+    crcs = {crc for _, crc, _ in drawn.values()}
+    assert len(crcs) == len(drawn), "each way of drawing has a picture of its own"
+    return drawn
+
+
+@pytest.mark.parametrize("small", [False, True], ids=["fast", "small"])
+@pytest.mark.parametrize("left_out", [*((name,) for name in NEEDS), FLAT], ids=lambda names: "-".join(names).lower())
+def test_a_mode_is_left_out(everything: Drawn, tmp_path: Path, left_out: tuple[str, ...], small: bool) -> None:
+    flags = [f"-DEL_WITH_{option}=0" for option in left_out]
+    drawn = _draw(tmp_path, f"-DEL_SMALL_CODE={int(small)}", *flags)
+    refused = set().union(*(NEEDS[option] for option in left_out))
+    for name, expected in everything.items():
+        if name not in refused:
+            assert drawn[name] == expected, name
+        elif name == "orthographic":
+            assert drawn[name] == (ERROR_CAMERA, NOTHING, 0)
+        else:
+            status, crc, pixels = drawn[name]
+            assert (status, pixels) == (ERROR_MATERIAL, 0), name
+            assert crc not in {other for _, other, _ in everything.values()}, "a picture of the background"
+
+
+@pytest.mark.parametrize("flags", [("-DEL_SMALL_CODE=1",), ("-Os",), ("-O2",)], ids=" ".join)
+def test_small_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
+    assert _draw(tmp_path, *flags) == everything
+
+
+@pytest.mark.parametrize("option", ["STATS", "CARRY"])
+def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
+    drawn = _draw(tmp_path, f"-DEL_WITH_{option}=0")
+    pixels = {name: 0 if option == "STATS" else count for name, (_, _, count) in everything.items()}
+    assert drawn == {name: (status, crc, pixels[name]) for name, (status, crc, _) in everything.items()}
+
+
+def test_a_header_sets_options(everything: Drawn, tmp_path: Path) -> None:
+    header = tmp_path / "edgeline_config.h"
+    header.write_text("#define EL_WITH_TEXTURE 0\n", encoding="ascii")
+    drawn = _draw(tmp_path, f'-DEL_CONFIG_FILE="{header}"')
+    assert drawn["textured"][0] == ERROR_MATERIAL
+    assert drawn["gouraud"] == everything["gouraud"]
+
+
+def test_a_header_that_is_not_there_stops_the_compiler(tmp_path: Path) -> None:
+    done = _compile(tmp_path, '-DEL_CONFIG_FILE="nowhere_config.h"')
+    assert done.returncode != 0
+    assert "nowhere_config.h" in done.stderr
+
+
+def test_an_option_is_0_or_1(tmp_path: Path) -> None:
+    done = _compile(tmp_path, "-DEL_WITH_LIGHT=2")
+    assert done.returncode != 0
+    assert "each EL_WITH_ option is 0 or 1" in done.stderr
