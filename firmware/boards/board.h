@@ -1,7 +1,8 @@
 /* What a board gives a program: the wire to its display, the link to a host, and a way to speak when all is lost.
  *
- * Each folder beside this file implements these functions for one board, bus.h and port.h among them; programs in
- * firmware/apps use nothing else of it. */
+ * Each folder beside this file that has a linker script implements these functions for one board, bus.h and port.h
+ * among them; programs in firmware/apps use nothing else of it. Parts that several chips have are in folders of their
+ * own. */
 #ifndef EL_BOARDS_BOARD_H
 #define EL_BOARDS_BOARD_H
 
@@ -31,5 +32,9 @@ void el_board_panic_write(const uint8_t *bytes, size_t count);
 
 /* Starts the board anew; where the chip cannot, stops here. */
 _Noreturn void el_board_restart(void);
+
+/* The program gives it: its name and version, as HELLO tells it, at most 64 bytes. Reports of failures end in it, where
+ * there is one. */
+extern const char el_firmware_name[];
 
 #endif

@@ -3,7 +3,7 @@
 #   edgeline_program(NAME SCRIPT FILE SOURCES FILE... [LIBRARIES TARGET...])
 #       NAME.elf in the build folder, with NAME.map and NAME.bin, linked by the script; the build prints what each memory
 #       region has in use, and the bytes of each section. The sources are the board's own and, on a Cortex-M,
-#       ${EDGELINE_CORTEX_M_SOURCES}.
+#       ${EDGELINE_CORTEX_M_SOURCES}; report.c comes by itself.
 #   edgeline_demo(SCRIPT FILE SOURCES FILE... PANEL NAME ROTATION DEGREES BAND LINES MEMORY BYTES [SCENE NAME])
 #       The program edgeline-demo of firmware/apps/demo. PANEL and ROTATION are what the board has by default; EDGELINE_PANEL
 #       and EDGELINE_ROTATION choose others. MEMORY is what renderer and stream share. SCENE is the one at the start, "demo"
@@ -26,7 +26,7 @@ function(edgeline_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "SCRIPT" "SOURCES;LIBRARIES")
     cmake_path(ABSOLUTE_PATH arg_SCRIPT)
     set(base ${CMAKE_BINARY_DIR}/${name})
-    add_executable(${name} ${arg_SOURCES})
+    add_executable(${name} ${arg_SOURCES} ${EDGELINE_BOARDS_DIR}/report.c)
     set_target_properties(${name} PROPERTIES
         SUFFIX .elf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}
         LINK_DEPENDS "${arg_SCRIPT};${EDGELINE_BOARDS_DIR}/cortex_m/sections.ld")
@@ -56,17 +56,20 @@ function(edgeline_demo)
     if(arg_PANEL IN_LIST edgeline_tft_panels)
         set(panel_source panel_tft.c)
     elseif(arg_PANEL IN_LIST edgeline_oled_panels)
-        set(panel_source panel_${arg_PANEL}.c)
+        set(panel_source panel_oled.c)
     else()
         list(JOIN edgeline_tft_panels ", " tfts)
         list(JOIN edgeline_oled_panels ", " oleds)
         message(FATAL_ERROR "EDGELINE_PANEL is '${arg_PANEL}', not one of ${tfts}, ${oleds}")
     endif()
     string(REPLACE "-" "_" model ${arg_PANEL})
+    string(TOUPPER ${model} macros)
     set(demo ${EDGELINE_BOARDS_DIR}/../apps/demo)
     edgeline_program(edgeline-demo SCRIPT ${arg_SCRIPT} LIBRARIES edgeline_scenes
         SOURCES ${arg_SOURCES} ${demo}/main.c ${demo}/${panel_source})
     target_compile_definitions(edgeline-demo PRIVATE
-        EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_MODEL=el_${model} EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
+        EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
+        EL_DEMO_MODEL=el_${model} EL_DEMO_INIT=el_${model}_init EL_DEMO_SINK=el_${model}_sink
+        EL_DEMO_PANEL_MEMORY=EL_${macros}_MEMORY_BYTES
         EL_DEMO_BAND_LINES=${arg_BAND} EL_DEMO_MEMORY_BYTES=${arg_MEMORY})
 endfunction()

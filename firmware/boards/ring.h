@@ -9,13 +9,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* All zero but for `bytes` and `mask` is an empty ring. */
+/* EL_RING gives an empty one. */
 typedef struct el_ring {
     uint8_t *bytes;          /* mask + 1 of them */
     uint16_t mask;           /* 2^n - 1, at most 32767 */
     volatile uint16_t put;   /* bytes ever put, modulo 2^16: the putting side's */
     volatile uint16_t taken; /* the taking side's */
 } el_ring;
+
+/* Initialises an el_ring with an array of bytes. For another size than 2^n it divides by 0, which no constant may. */
+#define EL_RING(array)                                                                                                 \
+    {                                                                                                                  \
+        .bytes = (array), .mask = (sizeof(array) - 1) / ((sizeof(array) & (sizeof(array) - 1)) == 0)                   \
+    }
 
 static inline uint16_t el_ring_used(const el_ring *ring)
 {

@@ -1,7 +1,8 @@
 /* The ST7789V and the IPS modules that it is sold in.
  *
- * Source: Sitronix, "ST7789V Datasheet", version 1.3. Parameter counts were checked against LovyanGFX and Linux's
- * fb_st7789v, the waiting times of 7.4.5 and LCMCTRL's bits against drivers that quote them.
+ * Source: Sitronix, "ST7789V Datasheet", version 1.3, as far as drivers quote it: its own text was not at hand for every
+ * command. The parameter counts of the commands that LovyanGFX and Linux's fb_st7789v send are as they send them; the
+ * waiting times of 7.4.5 and LCMCTRL's bits are as drivers give them; the rest is unconfirmed.
  * Commands without a case here or in dcs_execute.c change no pixel: the model checks their parameter counts only.
  *
  * The modules: memory column 0 and row 0 are at the viewer's upper left, the colour filter is RGB, so MADCTL is 00h for

@@ -34,6 +34,20 @@ cp "$root/.clang-format" "$root/.clang-tidy" "$sound/"
 echo /build/ >"$sound/.gitignore"
 cp "$root/host/pyproject.toml" "$sound/host/"
 printf '#!/bin/sh\necho "hello"\n' >"$sound/tests/run"
+mkdir -p "$sound/firmware/boards/a_board"
+cat >"$sound/CMakePresets.json" <<'JSON'
+{"version": 6, "configurePresets": [{"name": "a_board"}]}
+JSON
+cat >"$sound/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+set(CMAKE_C_COMPILER arm-none-eabi-gcc)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+project(a_board LANGUAGES C)
+add_subdirectory(firmware/boards/a_board)
+CMAKE
+echo 'add_library(a_board start.c)' >"$sound/firmware/boards/a_board/CMakeLists.txt"
+: >"$sound/firmware/boards/a_board/start.c"
 printf '"""Nothing."""\n\nANSWER: int = 42\n' >"$sound/host/edgeline/__init__.py"
 cat >"$sound/firmware/src/base/low.h" <<'C'
 #pragma once
@@ -110,6 +124,16 @@ int el_f(int x)
     return x;
 }
 C
+fault c_lint "an assignment in a condition, in a board" "start.c:3" firmware/boards/a_board/start.c <<C
+int el_f(int x)
+{
+    if (x = 1)
+        return 0;
+    return x;
+}
+C
+fault javascript "a bracket too few" "Unexpected end of input" tests/a.mjs <<<'f(1, {'
+fault python_style "a wrong type in a board's test" "Incompatible types" tests/target/a.py <<<'A: int = "a"'
 fault python_style "an unused import" "F401" host/edgeline/a.py <<<'import os'
 fault python_style "a line out of form" "1 file would be reformatted" host/edgeline/a.py <<<"A = {  'a':1 }"
 fault python_style "a wrong type" "Incompatible types" host/edgeline/a.py <<<'A: int = "a"'

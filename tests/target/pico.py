@@ -113,6 +113,12 @@ class Pico:
             raise BoardStopped("\n".join(self.report().texts))
         return base64.b64decode(answer["tx"])
 
+    def last_words(self, ns: int) -> bytes:
+        """What the UART sends within `ns`, in which the board must stop or start anew."""
+        answer = self._ask({"ns": ns})
+        assert answer["fatal"], "the board goes on"
+        return base64.b64decode(answer["tx"])
+
     def step_and_report(self, ns: int) -> Report:
         """Lets `ns` pass, in spite of what may stop the board, and tells all that is known."""
         return Report(self._ask({"ns": ns, "report": True})["report"])

@@ -191,7 +191,8 @@ class Stack:
 @contextmanager
 def machine(name: str, elf: Path, *options: str) -> Iterator[Machine]:
     """QEMU's machine `name` with the program `elf`, held until `run`."""
-    qemu = need_tool("qemu-system-arm", "qemu-system-arm")
+    emulator = ("qemu-system-riscv32", "qemu-system-misc") if name == "virt" else ("qemu-system-arm",) * 2
+    qemu = need_tool(*emulator)
     wanted = [
         *(qemu, "-M", name, "-kernel", str(elf), "-display", "none", "-monitor", "none", "-S"),
         *("-d", "guest_errors", "-qmp", "unix:q.sock,server=on,wait=off"),

@@ -89,7 +89,7 @@ class Board:
         return events[0].text
 
     def function_at(self, address: str) -> str:
-        """By the command that fault.h names."""
+        """By the command that fault.c names."""
         tool = need_tool("arm-none-eabi-addr2line", "binutils-arm-none-eabi")
         done = subprocess.run([tool, "-fipe", self.elf, address], capture_output=True, text=True, check=True)
         return done.stdout.split(" ")[0]

@@ -15,7 +15,8 @@ from target_tools import Image, LookError, Replacements, Simulator, build_faulty
 
 DISPLAY = "firmware/boards/rp2040/display.c"
 BOARD = "firmware/boards/rp2040/board.c"
-LINK = "firmware/boards/rp2040/link.c"
+CLOCKS = "firmware/boards/rp2040/clocks.c"
+UART = "firmware/boards/arm/pl011.c"
 BANDS = "firmware/src/frame/bands.c"
 TFT = "firmware/src/panel/tft.c"
 BUS_WAIT = "    while ((EL_SPI0->sr & EL_SPI_SR_BSY) != 0) {\n    }\n"
@@ -85,6 +86,11 @@ FAULTS = [
         ),
         "dma-set-up",
     ),
+    Fault(
+        "SPI disabled under a selected display",
+        in_display("        set_pin(EL_PIN_CS, 1);\n        set_word_size", "        set_word_size"),
+        "disabled-while-selected",
+    ),
     Fault("no chip select", in_display("    set_pin(EL_PIN_CS, 0);\n", ""), "cs-high"),
     Fault(
         "pixels as bytes",
@@ -98,20 +104,20 @@ FAULTS = [
         in_display("EL_DMA_DREQ_SPI0_TX | EL_DMA_CHAIN_TO_ITSELF", "0x3F << 15 | EL_DMA_CHAIN_TO_ITSELF"),
         "fifo-overflow",
     ),
-    Fault("SPI not enabled", in_display("        EL_SPI0->cr1 = EL_SPI_CR1_SSE;\n", ""), "spi-disabled"),
-    Fault("SPI left in reset", in_board("EL_RESET_SPI0 | ", ""), "in-reset"),
+    Fault("SPI not enabled", in_display("    EL_SPI0->cr1 = EL_SPI_CR1_SSE;\n", ""), "spi-disabled"),
+    Fault("SPI left in reset", in_board(" | EL_RESET_SPI0 |", " |"), "in-reset"),
     Fault(
         "pin without its function", in_display("    *EL_GPIO_CTRL(EL_PIN_TX) = EL_FUNCTION_SPI;\n", ""), "pin-function"
     ),
-    Fault("clk_peri not started", in_board("    EL_CLK_PERI->ctrl = EL_CLK_PERI_ENABLE;", "   "), "clock"),
+    Fault("clk_peri not started", {CLOCKS: [("    EL_CLK_PERI->ctrl = EL_CLK_PERI_ENABLE;", "   ")]}, "clock"),
     Fault(
         "no tick for the timer",
-        in_board("    EL_WATCHDOG->tick = EL_WATCHDOG_TICK_ENABLE | CRYSTAL_MHZ;\n", ""),
+        {CLOCKS: [("    EL_WATCHDOG->tick = EL_WATCHDOG_TICK_ENABLE | TICK;\n", "")]},
         "clock",
     ),
     Fault(
         "bytes into the full UART",
-        {LINK: [("(EL_UART0->fr & EL_UART_FR_TXFF) == 0 && el_ring_take", "el_ring_take")]},
+        {UART: [("(uart->registers->fr & FR_TXFF) == 0 && el_ring_take", "el_ring_take")]},
         "uart-overflow",
     ),
     Fault(

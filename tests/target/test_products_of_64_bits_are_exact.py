@@ -34,7 +34,8 @@ def assemble(text: str, folder: Path) -> bytes:
 
 def first_wrong(code: bytes) -> str:
     """The first pair whose product is wrong, or that changes what belongs to the caller; empty when all are right."""
-    cpu: Any = unicorn.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
+    mode = unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS
+    cpu: Any = unicorn.Uc(unicorn.UC_ARCH_ARM, mode)  # type: ignore[attr-defined,no-untyped-call]
     cpu.ctl_set_cpu_model(arm_const.UC_CPU_ARM_CORTEX_M0)
     cpu.mem_map(0, 0x8000)
     cpu.mem_write(CODE, code)

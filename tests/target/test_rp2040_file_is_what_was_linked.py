@@ -16,7 +16,7 @@ from target_tools import REPOSITORY, Image, build_board, need_tool
 MAKE_UF2 = REPOSITORY / "firmware/boards/rp2040/make_uf2.py"
 FLASH, RAM = 0x1000_0000, 0x2000_0000
 VECTORS = 0x100
-IRQ_DMA_0, IRQ_UART0, IRQ_COUNT = 11, 20, 26
+IRQ_TIMER_0, IRQ_DMA_0, IRQ_UART0, IRQ_COUNT = 0, 11, 20, 26
 BLOCK = struct.Struct("<8I476sI")
 
 
@@ -129,6 +129,7 @@ def test_the_vectors_lead_to_the_handlers(image: Image, symbols: dict[str, int])
     assert reset & 1 and FLASH <= reset < RAM
     expected = dict.fromkeys(range(2, 16 + IRQ_COUNT), symbols["el_fault_entry"])
     expected[15] = symbols["el_systick_entry"]
+    expected[16 + IRQ_TIMER_0] = symbols["el_pico_timer_interrupt"]
     expected[16 + IRQ_DMA_0] = symbols["el_pico_display_interrupt"]
     expected[16 + IRQ_UART0] = symbols["el_pico_link_interrupt"]
     assert dict(enumerate(handlers, 2)) == {number: address | 1 for number, address in expected.items()}

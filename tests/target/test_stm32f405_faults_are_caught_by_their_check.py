@@ -16,7 +16,6 @@ from unicorn_f405 import Board, expected
 BOARD = "firmware/boards/stm32f405/board.c"
 CLOCKS = "firmware/boards/stm32f405/clocks.c"
 DISPLAY = "firmware/boards/stm32f405/display.c"
-USART = "firmware/boards/stm32f405/usart.c"
 TFT = "firmware/src/panel/tft.c"
 BANDS = "firmware/src/frame/bands.c"
 
@@ -75,7 +74,7 @@ FAULTS = (
     ),
     Fault(
         "a wrong rate",
-        {USART: [("USART1_BRR = (clocks.apb2_hz", "USART1_BRR = (clocks.core_hz")]},
+        {BOARD: [("el_stm32f405_usart_start(clocks.apb2_hz)", "el_stm32f405_usart_start(clocks.core_hz)")]},
         "is not at 115200 bit/s",
     ),
     Fault(

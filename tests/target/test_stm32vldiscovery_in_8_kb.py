@@ -80,8 +80,8 @@ def test_it_goes_on_when_a_host_goes_away_in_the_middle_of_a_frame(image: Image)
 
 def test_it_goes_on_when_the_uart_takes_nothing(tmp_path: Path) -> None:
     """Its transmitter is full for ever. A START comes, so the board tries to send: frames wait a little, and go on."""
-    full = ("(USART_SR & USART_SR_TX_EMPTY) != 0 &&", "(USART_SR & 0U) != 0 &&")
-    image = build_faulty("stm32vldiscovery", {"firmware/boards/stm32vldiscovery/uart.c": [full]}, tmp_path)
+    full = ("(registers->sr & SR_TX_EMPTY) != 0 &&", "(registers->sr & 0U) != 0 &&")
+    image = build_faulty("stm32vldiscovery", {"firmware/boards/stm32/usart.c": [full]}, tmp_path)
     with streaming(MACHINE, image.elf) as demo:
         demo.link.transport.write(START)
         assert Progress.of(demo.board, image.elf).goes_on(10, PATIENCE_S)

@@ -1,5 +1,5 @@
-/* The panel that the demo shows its pictures on. Which one it is the build says (EDGELINE_PANEL, boards.cmake): one of the
- * files panel_*.c beside this one is compiled. */
+/* The panel that the demo shows its pictures on. Which one it is the build says (EDGELINE_PANEL, boards.cmake): one of
+ * the files panel_*.c beside this one is compiled. */
 #ifndef EL_APPS_DEMO_PANEL_H
 #define EL_APPS_DEMO_PANEL_H
 

@@ -21,4 +21,4 @@ set(CMAKE_C_FLAGS_INIT "${edgeline_cpu} -mthumb -ffunction-sections -fdata-secti
 set(CMAKE_ASM_FLAGS_INIT "${edgeline_cpu} -mthumb")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections")
 # Not _INIT: that goes before CMake's own -O3.
-set(CMAKE_C_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "Flags of release builds")
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g -DNDEBUG" CACHE STRING "Flags of release builds")

@@ -1,13 +1,14 @@
-/* Reports a fault and starts the board anew.
+/* Reports a fault and starts the board anew, by report.h, for example
  *
- * What the program left behind is not believed: the packet is made on the stack from constants and from the processor's
- * registers, with a sequence of its own from 0, after a 00 that ends whatever stood on the line; and it leaves by
- * polling. A fault in here ends in lockup, out of which only a watchdog helps. */
-#include "fault.h"
+ *     HardFault: divide by zero, at 00001a36, called from 00001b05, xPSR 61000000, stack 2000ff58, CFSR 02000000,
+ *     HFSR 40000000; edgeline-demo 0.1.0
+ *
+ * The addresses become lines of the source by `arm-none-eabi-addr2line -fipe PROGRAM.elf 1a36 1b05`. A fault in here
+ * ends in lockup, out of which only a watchdog helps. */
+#include <stddef.h>
 
-#include "board.h"
+#include "report.h"
 #include "start.h"
-#include "stream/packet.h"
 
 #if defined(__ARM_ARCH_7M__) || defined(__ARM_ARCH_7EM__) || defined(__ARM_ARCH_8M_MAIN__)
 #define HAS_FAULT_STATUS 1
@@ -17,25 +18,8 @@
 
 extern uint8_t el_bss_end[];
 
-__attribute__((weak)) const char el_firmware_name[] = "";
-
-static void put_text(el_packet_writer *writer, const char *text)
-{
-    for (; *text != '\0'; text++) {
-        el_packet_put_u8(writer, (uint8_t)*text);
-    }
-}
-
-static void put_hex(el_packet_writer *writer, const char *before, uint32_t value)
-{
-    put_text(writer, before);
-    for (int shift = 28; shift >= 0; shift -= 4) {
-        el_packet_put_u8(writer, (uint8_t) "0123456789abcdef"[value >> shift & 15]);
-    }
-}
-
 /* Numbers and names: Armv7-M Architecture Reference Manual, B1.5.2; 7: Armv8-M's, B3.9. */
-static void put_exception(el_packet_writer *writer, uint32_t number)
+static void put_exception(el_report *report, uint32_t number)
 {
     enum { EXCEPTIONS = 16 };
     static const char *const names[EXCEPTIONS] = {
@@ -44,11 +28,11 @@ static void put_exception(el_packet_writer *writer, uint32_t number)
         [12] = "DebugMonitor", [14] = "PendSV",    [15] = "SysTick"};
 
     if (number < EXCEPTIONS && names[number] != NULL) {
-        put_text(writer, names[number]);
+        el_report_text(report, names[number]);
     } else if (number >= EXCEPTIONS) {
-        put_hex(writer, "nobody serves interrupt ", number - EXCEPTIONS);
+        el_report_hex(report, "nobody serves interrupt ", number - EXCEPTIONS);
     } else {
-        put_hex(writer, "exception ", number);
+        el_report_hex(report, "exception ", number);
     }
 }
 
@@ -62,7 +46,7 @@ static volatile uint32_t *const bfar = (volatile uint32_t *)0xE000ED38;
 
 enum { MMFAR_IS_VALID = 1U << 7, BFAR_IS_VALID = 1U << 15, HFSR_VECTOR = 1U << 1 };
 
-static void put_cause(el_packet_writer *writer)
+static void put_cause(el_report *report)
 {
     static const struct {
         uint8_t bit; /* of CFSR */
@@ -90,87 +74,69 @@ static void put_cause(el_packet_writer *writer)
     const char *before = ": ";
     for (size_t i = 0; i < sizeof causes / sizeof causes[0]; i++) {
         if ((*cfsr >> causes[i].bit & 1U) != 0) {
-            put_text(writer, before);
-            put_text(writer, causes[i].meaning);
+            el_report_text(report, before);
+            el_report_text(report, causes[i].meaning);
             before = ", ";
         }
     }
     if ((*hfsr & HFSR_VECTOR) != 0) {
-        put_text(writer, before);
-        put_text(writer, "unreadable vector");
+        el_report_text(report, before);
+        el_report_text(report, "unreadable vector");
     }
     if ((*cfsr & BFAR_IS_VALID) != 0) {
-        put_hex(writer, ", address ", *bfar);
+        el_report_hex(report, ", address ", *bfar);
     } else if ((*cfsr & MMFAR_IS_VALID) != 0) {
-        put_hex(writer, ", address ", *mmfar);
+        el_report_hex(report, ", address ", *mmfar);
     }
 }
 
-static void put_status(el_packet_writer *writer)
+static void put_status(el_report *report)
 {
-    put_hex(writer, ", CFSR ", *cfsr);
-    put_hex(writer, ", HFSR ", *hfsr);
+    el_report_hex(report, ", CFSR ", *cfsr);
+    el_report_hex(report, ", HFSR ", *hfsr);
 }
 
 #else
 
-static void put_cause(el_packet_writer *writer)
+static void put_cause(el_report *report)
 {
-    (void)writer;
+    (void)report;
 }
 
-static void put_status(el_packet_writer *writer)
+static void put_status(el_report *report)
 {
-    (void)writer;
+    (void)report;
 }
 
 #endif
 
-static void put_place(el_packet_writer *writer, const el_fault_frame *frame)
+static void put_place(el_report *report, const el_fault_frame *frame)
 {
     const uintptr_t stack = (uintptr_t)frame;
 
     if (frame == NULL) {
-        put_text(writer, ", the stack is lost");
+        el_report_text(report, ", the stack is lost");
         return;
     }
     if (stack < (uintptr_t)el_bss_end) {
-        put_text(writer, ", stack overflow into the variables");
+        el_report_text(report, ", stack overflow into the variables");
     }
-    put_hex(writer, ", at ", frame->pc);
-    put_hex(writer, ", called from ", frame->lr);
-    put_hex(writer, ", xPSR ", frame->xpsr);
-    put_hex(writer, ", stack ", (uint32_t)stack);
-}
-
-static bool drain(void *context)
-{
-    el_packet_writer *writer = context;
-    size_t count;
-    const uint8_t *bytes = el_cobs_final(&writer->wire, &count);
-    el_board_panic_write(bytes, count);
-    el_cobs_take(&writer->wire, count);
-    return true;
+    el_report_hex(report, ", at ", frame->pc);
+    el_report_hex(report, ", called from ", frame->lr);
+    el_report_hex(report, ", xPSR ", frame->xpsr);
+    el_report_hex(report, ", stack ", (uint32_t)stack);
 }
 
 _Noreturn void el_fault(const el_fault_frame *frame, uint32_t number)
 {
-    uint8_t queue[EL_COBS_ENCODER_MIN_BYTES];
-    el_packet_writer writer;
+    el_report report;
 
-    el_packet_writer_init(&writer, queue, sizeof queue, drain, &writer);
-    el_packet_begin(&writer, EL_PACKET_LOG);
-    put_exception(&writer, number);
+    el_report_begin(&report);
+    put_exception(&report, number);
     if (number != 0) {
-        put_cause(&writer);
-        put_place(&writer, frame);
-        put_status(&writer);
+        put_cause(&report);
+        put_place(&report, frame);
+        put_status(&report);
     }
-    if (el_firmware_name[0] != '\0') {
-        put_text(&writer, "; ");
-        put_text(&writer, el_firmware_name);
-    }
-    (void)el_packet_end(&writer);
-    (void)drain(&writer);
-    el_board_restart();
+    el_report_end(&report);
 }

@@ -1,6 +1,6 @@
-/* Start-up of every Cortex-M: vectors, memory, faults. The linker script gives el_stack_end, el_data_begin, el_data_end,
- * el_data_load, el_bss_begin and el_bss_end (8-byte aligned), and places `.vectors.core`, then `.vectors.irq`, which is
- * the board's own table of its interrupts. */
+/* Start-up of every Cortex-M: vectors, memory, faults. The linker script gives el_stack_end, el_data_begin,
+ * el_data_end, el_data_load, el_bss_begin and el_bss_end (8-byte aligned), and places `.vectors.core`, then
+ * `.vectors.irq`, which is the board's own table of its interrupts. */
 #ifndef EL_BOARDS_CORTEX_M_START_H
 #define EL_BOARDS_CORTEX_M_START_H
 
@@ -24,8 +24,10 @@ typedef struct el_fault_frame {
  * NULL when the stack pointer was no address of RAM. The program gives it: fault.c, or a test's own. */
 _Noreturn void el_fault(const el_fault_frame *frame, uint32_t number);
 
-/* Any interrupt that nobody serves ends in el_fault; for `.vectors.irq`. */
+/* Any interrupt that nobody serves ends in el_fault; for `.vectors.irq`, also so many in a row. */
 void el_fault_entry(void);
+#define EL_FAULT_ENTRY_4 el_fault_entry, el_fault_entry, el_fault_entry, el_fault_entry
+#define EL_FAULT_ENTRY_16 EL_FAULT_ENTRY_4, EL_FAULT_ENTRY_4, EL_FAULT_ENTRY_4, EL_FAULT_ENTRY_4
 
 /* The core's timer; el_fault_entry unless a board has a handler (systick.c). */
 void el_systick_entry(void);

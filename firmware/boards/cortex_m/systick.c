@@ -40,19 +40,25 @@ uint32_t el_systick_micros(void *context)
         ticks = systick->reload - systick->current;
     } while (whole_ms != milliseconds);
     /* Where the interrupt is late (in an emulator by some microseconds) the counter is in its next millisecond and the
-     * count is not: time stands still then, but never runs back. */
+     * count is not: time stands still then, but never runs back. More than that millisecond is no lateness, but half an
+     * hour in which nobody asked. */
     const uint32_t now_us = whole_ms * 1000U + ticks / ticks_per_us;
-    if ((int32_t)(now_us - last_us) > 0) {
+    if (last_us - now_us > 1000U) {
         last_us = now_us;
     }
     return last_us;
 }
 
-void el_systick_delay_ms(void *context, uint32_t ms)
+void el_systick_wait(void *context)
 {
     (void)context;
+    __asm__ volatile("wfi");
+}
+
+void el_systick_delay_ms(void *context, uint32_t ms)
+{
     const uint32_t begin = milliseconds;
     while (milliseconds - begin <= ms) { /* one more, because the first one has begun already */
-        __asm__ volatile("wfi");
+        el_systick_wait(context);
     }
 }

@@ -12,4 +12,7 @@ void el_systick_start(uint32_t clock_hz);
 uint32_t el_systick_micros(void *context);
 void el_systick_delay_ms(void *context, uint32_t ms);
 
+/* As el_port.wait: sleeps until an interrupt, the timer's own at the latest. */
+void el_systick_wait(void *context);
+
 #endif

@@ -16,9 +16,9 @@ __attribute__((section(".vectors.irq"), used)) static const el_vector irq_vector
     [IRQ_SSI0] = el_lm3s6965_ssi0_entry,
 };
 
-/* 50 MHz: the PLL's 200 MHz from the 8 MHz crystal, divided by 4, in the order of the data sheet's section "Initialization
- * and Configuration" of System Control. Returns the clock: where the PLL does not lock, that of the internal oscillator,
- * +-30%, with which the display works and the UART does not. */
+/* 50 MHz: the PLL's 200 MHz from the 8 MHz crystal, divided by 4, in the order of the data sheet's section
+ * "Initialization and Configuration" of System Control. Returns the clock: where the PLL does not lock, that of the
+ * internal oscillator, +-30%, with which the display works and the UART does not. */
 static uint32_t start_clock(void)
 {
     enum { LOCK_POLLS = 100000 }; /* it takes 0.5 ms; these are 25 ms and more */
@@ -68,11 +68,4 @@ const el_board *el_board_start(void)
 void el_board_feed(void)
 {
     WATCHDOG_CLEAR = 1; /* any value: counts from the top again */
-}
-
-_Noreturn void el_board_restart(void)
-{
-    SCB_AIRCR = AIRCR_RESET;
-    for (;;) { /* until it happens */
-    }
 }

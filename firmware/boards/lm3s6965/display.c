@@ -1,10 +1,13 @@
 /* The OLED's wire: SSI0 and the D/C line.
  *
- * Bytes of a picture go out by interrupt, half a FIFO at a time, while the next band is drawn. Commands are polled: they
- * are few. SSI0 is the clock of its own wire and nothing outside can hold it up, so every wait for it ends within the time
- * of its FIFO, and a wait for an open transfer within the time of that transfer. */
+ * Bytes of a picture go out by interrupt, half a FIFO at a time, while the next band is drawn. Commands are polled:
+ * they are few. SSI0 is the clock of its own wire and nothing outside can hold it up, so every wait for it ends within
+ * the time of its FIFO, and a wait for an open transfer within the time of that transfer. */
 #include "lm3s6965.h"
 
+#include <stdbool.h>
+
+#include "cortex_m/core.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
 
@@ -16,7 +19,7 @@ static struct {
     const uint8_t *end;
     void (*done)(void *argument);
     void *argument;
-    volatile uint8_t open;
+    volatile bool open;
 } transfer;
 
 /* What comes in while bytes go out says nothing, but a full FIFO of it stands in the way. */
@@ -39,7 +42,7 @@ static void feed(void)
     }
     if (transfer.next == transfer.end) {
         SSI_INTERRUPTS = 0;
-        transfer.open = 0;
+        transfer.open = false;
         transfer.done(transfer.argument);
     }
 }
@@ -76,8 +79,7 @@ static void send(const uint8_t *bytes, size_t count)
 static void wait(void *context)
 {
     (void)context;
-    __asm__ volatile(
-        "wfi"); /* SysTick ends it too: an interrupt that came just before it costs a millisecond at most */
+    el_core_sleep_while(&transfer.open);
 }
 
 static void close_transfer(void)
@@ -109,7 +111,7 @@ static void bytes(void *context, const uint8_t *bytes, size_t count, void (*done
     transfer.end = bytes + count;
     transfer.done = done;
     transfer.argument = argument;
-    transfer.open = 1;
+    transfer.open = true;
     feed();
     if (transfer.open) {
         SSI_INTERRUPTS = SSI_INTERRUPT_TX;
@@ -136,11 +138,11 @@ void el_lm3s6965_display_start(void)
     GPIO_DIGITAL(GPIO_D) |= 1U << CARD_SELECT_PIN;
     GPIO_PIN(GPIO_D, CARD_SELECT_PIN) = 1U << CARD_SELECT_PIN;
 
-    /* The SSD0323 takes a bit at each rising edge of a clock of 4 MHz at most (data sheet, "4-wire SPI timing"): the clock
-     * rests high, data change at its falling edge, 50 MHz / (2 * 7) = 3.57 MHz. A frame takes 9.2 ms. */
+    /* The SSD0323 takes a bit at each rising edge of a clock of 4 MHz at most (data sheet, "4-wire SPI timing"): the
+     * clock rests high, data change at its falling edge, 50 MHz / (2 * 7) = 3.57 MHz. A frame takes 9.2 ms. */
     SSI_CONTROL1 = 0;
     SSI_PRESCALER = 2;
     SSI_CONTROL0 = SSI_CONTROL0_8_BITS | SSI_CONTROL0_IDLE_HIGH | SSI_CONTROL0_SECOND_EDGE | SSI_CONTROL0_RATE(7U);
     SSI_CONTROL1 = SSI_CONTROL1_ENABLE;
-    NVIC_ENABLE0 = 1U << IRQ_SSI0;
+    el_core_enable_interrupt(IRQ_SSI0);
 }

@@ -18,4 +18,4 @@ set(CMAKE_C_FLAGS_INIT "${edgeline_cpu} --specs=picolibc.specs -ffunction-sectio
 set(CMAKE_ASM_FLAGS_INIT "${edgeline_cpu}")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,--gc-sections")
 # Not _INIT: that goes before CMake's own -O3.
-set(CMAKE_C_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "Flags of release builds")
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g -DNDEBUG" CACHE STRING "Flags of release builds")

@@ -1,28 +1,31 @@
 /* Pixels go by DMA while the program draws on; commands, which are few and short, by the processor.
  *
  * The wire has three states that may change only when it is idle, or the display would take a word for something else:
- * chip select, D/C, and the word size. All of them change in one place, `set_wire`, which waits first. Chip select rises
- * and falls before each command, so that a display that lost count of its bits finds the next command again; pixels
- * follow their command without a change of it.
+ * chip select, D/C, and the word size. All of them change in one place, `set_wire`, which waits first. Chip select
+ * rises and falls before each command, so that a display that lost count of its bits finds the next command again, and
+ * around each change of the word size, for which the SPI is disabled: what its clock line does then no display shall
+ * count.
  *
- * SPI mode 3, clock high when idle: the displays take it as well as mode 0, and in mode 0 the PL022 holds the clock for a
- * bit's time or more between two words (4.4.3.9 to 4.4.3.12), which mode 3 does not. */
+ * SPI mode 3, clock high when idle: the displays take it as well as mode 0, and in mode 0 the PL022 holds the clock for
+ * a bit's time or more between two words (4.4.3.10 to 4.4.3.13), which mode 3 does not. */
 #include "rp2040/display.h"
 
 #include <stdbool.h>
 
+#include "cortex_m/core.h"
 #include "rp2040/pins.h"
 #include "rp2040/registers.h"
 #include "rp2040/timer.h"
 
 enum { MODE_3 = EL_SPI_CR0_SPO | EL_SPI_CR0_SPH };
-enum { CPSDVSR = 2 }; /* 125 MHz / 2, the PL022's fastest (4.4.3.4) */
+enum { CPSDVSR = 2 }; /* 125 MHz / 2, the PL022's fastest (4.4.4, SSPCPSR) */
 
 enum {
     DMA_CONTROL = EL_DMA_DREQ_SPI0_TX | EL_DMA_CHAIN_TO_ITSELF | EL_DMA_INCR_READ | EL_DMA_HIGH_PRIORITY | EL_DMA_ENABLE
 };
 
-/* The transfer under way. `busy` is set by the program and cleared by the interrupt, which alone reads the rest then. */
+/* The transfer under way. `busy` is set by the program and cleared by the interrupt, which alone reads the rest then.
+ * */
 static struct {
     volatile bool busy;
     void (*done)(void *argument);
@@ -30,8 +33,8 @@ static struct {
 } transfer;
 
 static struct {
-    uint32_t word_size; /* EL_SPI_CR0_..._BITS; 0: the SPI is not set up yet */
-    int dc;
+    uint32_t word_size; /* EL_SPI_CR0_..._BITS */
+    int dc;             /* its level, or -1: the display is not selected */
 } wire;
 
 static void set_pin(unsigned pin, int level)
@@ -43,14 +46,10 @@ static void set_pin(unsigned pin, int level)
     }
 }
 
-/* The event register of the processor is set by every interrupt (Armv6-M Architecture Reference Manual, B1.5.18), so one
- * that comes between the look at `busy` and the instruction does not get lost: WFE returns at once. */
 static void wait(void *context)
 {
     (void)context;
-    if (transfer.busy) {
-        __asm__ volatile("wfe");
-    }
+    el_core_sleep_while(&transfer.busy);
 }
 
 /* Needs no bound: the DMA ends by itself, since nothing can hold up an SPI master, and so do the last eight words, in
@@ -64,7 +63,16 @@ static void wait_until_idle(void)
     }
 }
 
-/* Word size and D/C of what comes next. The PL022 takes another size only while it is disabled (4.4.3.2). */
+/* With the display not selected. The PL022 takes another size only while it is disabled (4.4.3). */
+static void set_word_size(uint32_t word_size)
+{
+    EL_SPI0->cr1 = 0;
+    EL_SPI0->cr0 = MODE_3 | word_size;
+    EL_SPI0->cr1 = EL_SPI_CR1_SSE;
+    wire.word_size = word_size;
+}
+
+/* Word size and D/C of what comes next, which the display is selected for. */
 static void set_wire(uint32_t word_size, int dc)
 {
     if (word_size == wire.word_size && dc == wire.dc) {
@@ -72,12 +80,11 @@ static void set_wire(uint32_t word_size, int dc)
     }
     wait_until_idle();
     if (word_size != wire.word_size) {
-        EL_SPI0->cr1 = 0;
-        EL_SPI0->cr0 = MODE_3 | word_size;
-        EL_SPI0->cr1 = EL_SPI_CR1_SSE;
-        wire.word_size = word_size;
+        set_pin(EL_PIN_CS, 1);
+        set_word_size(word_size);
     }
     set_pin(EL_PIN_DC, dc);
+    set_pin(EL_PIN_CS, 0);
     wire.dc = dc;
 }
 
@@ -93,8 +100,8 @@ static void command(void *context, uint8_t code, const uint8_t *parameters, size
     (void)context;
     wait_until_idle();
     set_pin(EL_PIN_CS, 1);
+    wire.dc = -1; /* so that it is selected again, whatever came before */
     set_wire(EL_SPI_CR0_8_BITS, 0);
-    set_pin(EL_PIN_CS, 0);
     send_byte(code);
     if (count > 0) {
         set_wire(EL_SPI_CR0_8_BITS, 1);
@@ -172,8 +179,10 @@ const el_bus *el_pico_display_start(void)
 
     EL_SPI0->cpsr = CPSDVSR;
     EL_SPI0->dmacr = EL_SPI_DMACR_TXDMAE;
-    set_wire(EL_SPI_CR0_8_BITS, 1);
-    /* Edges of 62.5 MHz need more than a pad's 4 mA (2.19.4). The clock idles high before its pin shows it. */
+    set_word_size(EL_SPI_CR0_8_BITS);
+    wire.dc = -1;
+    /* Edges of 62.5 MHz need more than the 4 mA that a pad has after reset (2.19.4). The clock idles high before its
+     * pin shows it. */
     *EL_PAD(EL_PIN_SCK) = EL_PAD_8_MA | EL_PAD_FAST | EL_PAD_INPUT;
     *EL_PAD(EL_PIN_TX) = EL_PAD_8_MA | EL_PAD_FAST | EL_PAD_INPUT;
     *EL_GPIO_CTRL(EL_PIN_SCK) = EL_FUNCTION_SPI;
@@ -181,6 +190,6 @@ const el_bus *el_pico_display_start(void)
 
     EL_DMA_0->write_addr = (uint32_t)(uintptr_t)&EL_SPI0->dr;
     *EL_DMA_INTE0 = 1U << 0;
-    *EL_NVIC_ISER = 1U << EL_IRQ_DMA_0;
+    el_core_enable_interrupt(EL_IRQ_DMA_0);
     return &bus;
 }

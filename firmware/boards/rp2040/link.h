@@ -2,10 +2,14 @@
 #ifndef EL_BOARDS_RP2040_LINK_H
 #define EL_BOARDS_RP2040_LINK_H
 
+#include <stdint.h>
+
 #include "base/port.h"
 
-/* Called once, with the clocks running and UART0, timer, pins and pads out of reset. */
-const el_port *el_pico_link_start(void);
+enum { EL_PICO_BAUD = 115200 };
+
+/* Called once, with clk_peri at `clock_hz` and UART0, timer, pins and pads out of reset. */
+const el_port *el_pico_link_start(uint32_t clock_hz);
 
 /* The handler of UART0_IRQ. */
 void el_pico_link_interrupt(void);

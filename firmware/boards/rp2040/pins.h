@@ -13,6 +13,4 @@ enum {
     EL_PIN_BACKLIGHT = 22
 };
 
-enum { EL_PICO_CLOCK_HZ = 125000000, EL_PICO_BAUD = 115200 };
-
 #endif

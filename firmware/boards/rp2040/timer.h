@@ -4,7 +4,13 @@
 
 #include <stdint.h>
 
+/* Called once, with the watchdog's tick running and the timer out of reset. */
+void el_pico_timer_start(void);
+
 uint32_t el_pico_micros(void *context);
 void el_pico_delay_ms(void *context, uint32_t ms);
+
+/* The handler of TIMER_IRQ_0. */
+void el_pico_timer_interrupt(void);
 
 #endif

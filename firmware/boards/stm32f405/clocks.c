@@ -48,8 +48,9 @@ el_stm32f405_clocks el_stm32f405_clocks_start(void)
     FLASH_ACR = FLASH_ACR_LATENCY(5U) | FLASH_ACR_PREFETCH | FLASH_ACR_INSTRUCTION_CACHE | FLASH_ACR_DATA_CACHE;
     while ((FLASH_ACR & FLASH_ACR_LATENCY_MASK) != FLASH_ACR_LATENCY(5U)) { /* reads back within some cycles */
     }
-    RCC_CFGR = RCC_CFGR_FROM_PLL | RCC_CFGR_APB1_BY_4 | RCC_CFGR_APB2_BY_2; /* 42 and 84 MHz, their most */
-    while ((RCC_CFGR & RCC_CFGR_STATUS_MASK) != RCC_CFGR_STATUS_PLL) {      /* at once: the PLL is ready */
+    RCC_CFGR = RCC_CFGR_APB1_BY_4 | RCC_CFGR_APB2_BY_2; /* 42 and 84 MHz, their most, before the clock is faster */
+    RCC_CFGR |= RCC_CFGR_FROM_PLL;
+    while ((RCC_CFGR & RCC_CFGR_STATUS_MASK) != RCC_CFGR_STATUS_PLL) { /* at once: the PLL is ready */
     }
     const uint32_t core_hz = PLL_FACTOR / CORE_DIVIDER * 1000000U;
     return (el_stm32f405_clocks){.core_hz = core_hz, .apb2_hz = core_hz / 2U};

@@ -1,10 +1,11 @@
 /* The display's wire: SPI1, pixels and longer bytes by DMA2, and three pins.
  *
  * One transfer is open at a time. Its end is the DMA's: then its memory is the caller's again, while the last word or
- * two still leave the SPI. So D/C, chip select and the word size change after `wait_idle` alone, and bands that follow each
- * other change none of them. */
+ * two still leave the SPI. So D/C, chip select and the word size change after `wait_idle` alone, and bands that follow
+ * each other change none of them. */
 #include <stdbool.h>
 
+#include "cortex_m/core.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
 #include "stm32f405.h"
@@ -57,8 +58,8 @@ static void wait_idle(void)
 }
 
 /* Makes the wire ready for words of that size. Chip select goes up for longer than the 40 ns that controllers ask for,
- * because the SPI is set up meanwhile: a display that lost count of the bits begins anew. While the SPI is off it lets go
- * of its pins, which the display does not look at then. */
+ * because the SPI is set up meanwhile: a display that lost count of the bits begins anew. While the SPI is off it lets
+ * go of its pins, which the display does not look at then. */
 static void begin_words(uint8_t bytes, int dc)
 {
     const uint32_t control = CONTROL | (bytes == 2 ? SPI_CR1_16_BITS : 0U);
@@ -117,8 +118,7 @@ void el_stm32f405_dma2_stream3_entry(void)
  * follows. */
 static void give_dma_up(void)
 {
-    NVIC_DISABLE1 = 1U << (IRQ_DMA2_STREAM_3 - 32U);
-    __asm__ volatile("dsb\n isb" ::: "memory");
+    el_core_disable_interrupt(IRQ_DMA2_STREAM_3);
     dma_is_dead = true;
     if (current.open) { /* its end has not come at the last moment */
         DMA2_S3CR = 0;
@@ -132,13 +132,7 @@ static void give_dma_up(void)
 static void wait(void *context)
 {
     (void)context;
-    /* With interrupts off, lest the one that ends the transfer comes between the question and the sleep. Sleep ends all
-     * the same when one is pending, SysTick's within a millisecond. */
-    __asm__ volatile("cpsid i" ::: "memory");
-    if (current.open) {
-        __asm__ volatile("wfi");
-    }
-    __asm__ volatile("cpsie i\n isb" ::: "memory");
+    el_core_sleep_while(&current.open); /* SysTick ends it within a millisecond */
 
     const uint32_t now_us = el_systick_micros(NULL);
     const uint32_t dma_left = DMA2_S3NDTR;
@@ -225,9 +219,11 @@ void el_stm32f405_display_start(void)
     set_pin(PIN_CS, 1);
     set_pin(PIN_RESET, 1);
     GPIOA_AFRL |= FUNCTION_SPI1 << 4 * PIN_SCK | FUNCTION_SPI1 << 4 * PIN_MOSI;
-    GPIOA_OSPEEDR |= GPIO_50_MHZ << 2 * PIN_SCK | GPIO_50_MHZ << 2 * PIN_MOSI;
+    /* At a pin's slowest an edge takes up to 100 ns: chip select would fall, and D/C change, after the first bits. */
+    GPIOA_OSPEEDR |= GPIO_50_MHZ << 2 * PIN_SCK | GPIO_50_MHZ << 2 * PIN_MOSI | GPIO_50_MHZ << 2 * PIN_CS |
+                     GPIO_50_MHZ << 2 * PIN_DC;
     GPIOA_PUPDR |= GPIO_PULL_DOWN << 2 * PIN_SCK; /* low while the SPI is off, as it is between words */
     GPIOA_MODER |= outputs | GPIO_ALTERNATE << 2 * PIN_SCK | GPIO_ALTERNATE << 2 * PIN_MOSI;
     begin_words(1, 1);
-    NVIC_ENABLE1 = 1U << (IRQ_DMA2_STREAM_3 - 32U);
+    el_core_enable_interrupt(IRQ_DMA2_STREAM_3);
 }

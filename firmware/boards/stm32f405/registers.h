@@ -1,11 +1,15 @@
 /* What the STM32F405 has and where: the registers that this board uses, no others.
  *
- * Names, addresses and bits as in ST's reference manual RM0090, whose section numbers stand beside them; the register
- * map is in its section 2.3. Limits of clocks and pins are of the data sheet, DS8626. */
+ * Names, addresses and bits as in ST's reference manual RM0090, whose section numbers stand beside them as the
+ * revisions have them that describe the STM32F42x too (earlier ones count otherwise from chapter 21 on); the register
+ * map is in its section 2.3. Limits of clocks and pins are of the data sheet, DS8626. No such chip was at hand: what is
+ * here ran in emulators alone, whose models were written from the same documents. */
 #ifndef EL_BOARDS_STM32F405_REGISTERS_H
 #define EL_BOARDS_STM32F405_REGISTERS_H
 
 #include <stdint.h>
+
+#include "stm32/usart.h"
 
 #define EL_REGISTER(address) (*(volatile uint32_t *)(address))
 
@@ -93,20 +97,8 @@
 #define SPI_SR_BUSY (1U << 7)
 #define SPI1_DR EL_REGISTER(0x4001300C)
 
-/* USART1 (30.6). */
-#define USART1_SR EL_REGISTER(0x40011000)
-#define USART_SR_OVERRUN (1U << 3)
-#define USART_SR_RX_NOT_EMPTY (1U << 5)
-#define USART_SR_TX_COMPLETE (1U << 6)
-#define USART_SR_TX_EMPTY (1U << 7)
-#define USART1_DR EL_REGISTER(0x40011004)
-#define USART1_BRR EL_REGISTER(0x40011008)
-#define USART1_CR1 EL_REGISTER(0x4001100C)
-#define USART_CR1_RECEIVE (1U << 2)
-#define USART_CR1_TRANSMIT (1U << 3)
-#define USART_CR1_RX_INTERRUPT (1U << 5)
-#define USART_CR1_TX_INTERRUPT (1U << 7)
-#define USART_CR1_ENABLE (1U << 13)
+/* USART1 (30.6): stm32/usart.h. */
+#define USART1 ((el_stm32_usart_registers *)0x40011000)
 
 /* The independent watchdog, on its own 32 kHz (21.4). */
 #define IWDG_KR EL_REGISTER(0x40003000)
@@ -124,15 +116,8 @@
 #define RNG_SR_READY (1U << 0)
 #define RNG_DR EL_REGISTER(0x50060808)
 
-/* Interrupts (12.2, table 61), enabled and made pending in the NVIC (Armv7-M Architecture Reference Manual, B3.4). */
+/* Interrupts (12.2, table 61). */
 #define IRQ_USART1 37U
 #define IRQ_DMA2_STREAM_3 59U
-#define NVIC_ENABLE1 EL_REGISTER(0xE000E104) /* numbers 32 to 63 */
-#define NVIC_DISABLE1 EL_REGISTER(0xE000E184)
-#define NVIC_PEND1 EL_REGISTER(0xE000E204)
-
-/* Application interrupt and reset control (B3.2.6): the key, and the request for a reset. */
-#define SCB_AIRCR EL_REGISTER(0xE000ED0C)
-#define AIRCR_RESET (0x05FA0000U | 1U << 2)
 
 #endif

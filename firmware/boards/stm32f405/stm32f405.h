@@ -14,11 +14,9 @@ typedef struct el_stm32f405_clocks {
 
 el_stm32f405_clocks el_stm32f405_clocks_start(void);
 
-enum { EL_STM32F405_BAUD = EDGELINE_BAUD }; /* a whole number of clocks within 0.2% up to 2 Mbit/s */
+enum { EL_STM32F405_BAUD = EDGELINE_BAUD };
 
-extern const el_port el_stm32f405_port;
-void el_stm32f405_usart_start(el_stm32f405_clocks clocks);
-void el_stm32f405_usart1_entry(void);
+void el_stm32f405_usart_start(uint32_t clock_hz);
 
 extern const el_bus el_stm32f405_bus;
 void el_stm32f405_display_start(void);

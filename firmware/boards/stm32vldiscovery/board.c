@@ -10,7 +10,7 @@ __attribute__((section(".noinit"))) static uint32_t starts;
 
 /* The others are never enabled. */
 __attribute__((section(".vectors.irq"), used)) static const el_vector irq_vectors[] = {
-    [IRQ_USART1] = el_vldiscovery_usart1_entry,
+    [IRQ_USART1] = el_stm32_usart1_entry,
 };
 
 /* Whether a bit of the clock control was seen within 25 ms at 8 MHz, far more than a crystal or the PLL needs. Not for
@@ -26,8 +26,8 @@ static int seen(volatile uint32_t *word, uint32_t bits)
     return 0;
 }
 
-/* 24 MHz from the 8 MHz crystal times 3, or without it from the internal oscillator: 8 MHz / 2 * 6, +-2.5%. Flash needs no
- * wait states at 24 MHz, and neither bus a divider. */
+/* 24 MHz from the 8 MHz crystal times 3, or without it from the internal oscillator: 8 MHz / 2 * 6, +-2.5%. Flash needs
+ * no wait states at 24 MHz, and neither bus a divider. */
 static void start_clock(void)
 {
     RCC_CR |= RCC_CR_HSE_ON;
@@ -52,7 +52,7 @@ const el_board *el_board_start(void)
 {
     static el_board board = {.name = "STM32 VL Discovery",
                              .bus = &el_vldiscovery_bus,
-                             .port = &el_vldiscovery_port,
+                             .port = &el_stm32_usart1_port,
                              .max_baud = EL_VLDISCOVERY_BAUD};
     start_clock();
     RCC_APB2ENR |= RCC_APB2ENR_PORT_A | RCC_APB2ENR_SPI1 | RCC_APB2ENR_USART1;
@@ -68,11 +68,4 @@ const el_board *el_board_start(void)
 void el_board_feed(void)
 {
     IWDG_KEY = IWDG_KEY_FEED;
-}
-
-_Noreturn void el_board_restart(void)
-{
-    SCB_AIRCR = AIRCR_RESET;
-    for (;;) { /* until it happens */
-    }
 }

@@ -1,8 +1,8 @@
 /* The OLED's wire: SPI1, polled.
  *
  * A frame of the SSD1306 is 1 KB, 1.4 ms at 6 MHz: less than what an interrupt for each byte would cost, and DMA would
- * win a tenth of a frame for another transfer's state. The SPI is the clock of its own wire, nothing outside can hold it
- * up, so every wait for it ends within two bytes' time. */
+ * win a tenth of a frame for another transfer's state. The SPI is the clock of its own wire, nothing outside can hold
+ * it up, so every wait for it ends within two bytes' time. */
 #include "stm32vldiscovery.h"
 
 #include "cortex_m/systick.h"

@@ -1,12 +1,15 @@
 /* What the STM32F100RB has and where: the registers that this board uses, no others.
  *
  * Names as in the reference manual (STMicroelectronics, RM0041, "STM32F100xx advanced Arm-based 32-bit MCUs"), chapters
- * "Reset and clock control" (RCC), "General-purpose and alternate-function I/Os", "Independent watchdog" (IWDG), "Serial
- * peripheral interface" and "Universal synchronous asynchronous receiver transmitter". */
+ * "Reset and clock control" (RCC), "General-purpose and alternate-function I/Os", "Independent watchdog" (IWDG),
+ * "Serial peripheral interface" and "Universal synchronous asynchronous receiver transmitter". Tried in emulators
+ * alone. */
 #ifndef EL_BOARDS_STM32VLDISCOVERY_REGISTERS_H
 #define EL_BOARDS_STM32VLDISCOVERY_REGISTERS_H
 
 #include <stdint.h>
+
+#include "stm32/usart.h"
 
 #define EL_REGISTER(address) (*(volatile uint32_t *)(address))
 
@@ -65,28 +68,10 @@ static inline void el_gpio_configure(uint32_t port, uint32_t pin, uint32_t mode)
 #define SPI_SR_TX_EMPTY (1U << 1)
 #define SPI_SR_BUSY (1U << 7)
 
-/* USART1. */
-#define USART_SR EL_REGISTER(0x40013800)
-#define USART_DR EL_REGISTER(0x40013804)
-#define USART_BRR EL_REGISTER(0x40013808)
-#define USART_CR1 EL_REGISTER(0x4001380C)
-#define USART_SR_OVERRUN (1U << 3)
-#define USART_SR_RX_NOT_EMPTY (1U << 5)
-#define USART_SR_SENT (1U << 6)
-#define USART_SR_TX_EMPTY (1U << 7)
-#define USART_CR1_RX (1U << 2)
-#define USART_CR1_TX (1U << 3)
-#define USART_CR1_RX_INTERRUPT (1U << 5)
-#define USART_CR1_TX_INTERRUPT (1U << 7)
-#define USART_CR1_ENABLE (1U << 13)
+/* USART1: stm32/usart.h. */
+#define USART1 ((el_stm32_usart_registers *)0x40013800)
 
-/* Interrupts, by number; the NVIC's registers of numbers 32..63 (Armv7-M Architecture Reference Manual, B3.4). */
-#define NVIC_ENABLE1 EL_REGISTER(0xE000E104)
-#define NVIC_PEND1 EL_REGISTER(0xE000E204)
+/* Interrupts, by number. */
 #define IRQ_USART1 37U
-
-/* Application interrupt and reset control (B3.2.6): the key, and the request for a reset. */
-#define SCB_AIRCR EL_REGISTER(0xE000ED0C)
-#define AIRCR_RESET (0x05FA0000U | 1U << 2)
 
 #endif

@@ -25,7 +25,5 @@ void el_vldiscovery_display_start(void);
 extern const el_bus el_vldiscovery_bus;
 
 void el_vldiscovery_uart_start(void);
-extern const el_port el_vldiscovery_port;
-void el_vldiscovery_usart1_entry(void);
 
 #endif

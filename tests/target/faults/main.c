@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "board.h"
-#include "fault.h"
 #include "start.h"
 
 typedef struct uart {

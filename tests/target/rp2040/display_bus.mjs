@@ -76,8 +76,14 @@ export class DisplayBus {
         if (value < 2 || value & 1) {
           problems.add('spi-clock', `a clock divisor of ${value}: 2..254 and even is what the SPI takes`);
         }
-      } else if (offset === CR1 && (value & CR1_ENABLED) === 0 && this.busy) {
-        problems.add('spi-disabled', 'the SPI was disabled while the bus was busy');
+      } else if (offset === CR1 && (value & CR1_ENABLED) === 0) {
+        if (this.busy) {
+          problems.add('spi-disabled', 'the SPI was disabled while the bus was busy');
+        }
+        // What its clock line does then is nobody's promise.
+        if ((this.mcu.sio.gpioValue & (1 << CS)) === 0) {
+          problems.add('disabled-while-selected', 'the SPI was disabled while chip select was low');
+        }
       }
       write(offset, value);
     };
