@@ -23,8 +23,8 @@ TRANSFORM, CLIP = "geometry/transform.c", "geometry/clip.c"
 I32 = (-(2**31), 2**31 - 1)
 
 
-def guard_sub(machine: Machine) -> int:
-    return machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+def constant_of(machine: Machine, name: str) -> int:
+    return machine.constant(machine.unit.constants[name])
 
 
 # --- position to clip space -------------------------------------------------------------------------------------------
@@ -60,8 +60,21 @@ def transform_of(machine: Machine, shift: int | None = None, **fields: Any) -> A
     return transform
 
 
-def clip_vertex(machine: Machine, name: str = "") -> Any:
-    return machine.struct("el_clip_vertex", **{axis: machine.path.atom(name + axis, *I32) for axis in "xydw"})
+def two_guard_shifts(machine: Machine, transform: Any) -> Any:
+    """The same with shifts that differ, whatever they are: 0..11 for x, and what it lacks of 11 for y."""
+    shift = machine.poly(transform, "guard_shift", 0).known
+    machine.put(transform.content["guard_shift"], [shift, 11 - shift])
+    return transform
+
+
+def clip_vertex(machine: Machine, name: str = "", least_w: int = I32[0]) -> Any:
+    values = {axis: machine.path.atom(name + axis, *I32) for axis in "xyd"}
+    return machine.struct("el_clip_vertex", **values, w=machine.path.atom(f"{name}w", least_w, I32[1]))
+
+
+def side_of(machine: Machine, transform: Any, vertex: Any, axis: int) -> Poly:
+    """Where the guard band of x (0) or y (1) ends: w << guard_shift."""
+    return machine.poly(vertex, "w") * (1 << machine.poly(transform, "guard_shift", axis).known)
 
 
 def outcode_domain(machine: Machine) -> list[Any]:
@@ -73,16 +86,14 @@ def outcode_domain(machine: Machine) -> list[Any]:
 def outcode_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """Without a bit of EL_CODE_CLIP: near <= d <= far, and |x|, |y| <= w << guard_shift."""
     path = machine.path
-    constants = {name: machine.constant(machine.unit.constants[f"EL_CODE_{name}"]) for name in ("CLIP",)}
-    code = result.poly.known
-    if code & constants["CLIP"]:
+    if result.poly.known & constant_of(machine, "EL_CODE_CLIP"):
         return
     transform, vertex = arguments[0].cell, arguments[1].cell
-    x, y, d, w = (machine.poly(vertex, axis) for axis in "xydw")
+    x, y, d = (machine.poly(vertex, axis) for axis in "xyd")
     path.prove(d - machine.poly(transform, "near"), "d >= near")
     path.prove(machine.poly(transform, "far") - d, "d <= far")
     for i, coordinate in enumerate((x, y)):
-        limit = w * (1 << machine.poly(transform, "guard_shift", i).known)
+        limit = side_of(machine, transform, vertex, i)
         path.prove(limit - coordinate, "x, y <= w << guard_shift")
         path.prove(limit + coordinate, "x, y >= -w << guard_shift")
 
@@ -123,7 +134,7 @@ def snap_domain(machine: Machine) -> list[Any]:
 def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """Within the guard band, and nearest to size / 2 (1 + c / w), ties up."""
     path = machine.path
-    guard = guard_sub(machine)
+    guard = constant_of(machine, "EL_GUARD_SUB")
     c, size, w = (argument.poly for argument in arguments[:3])
     half = size * (guard // 2040 // 2)
     path.prove(result.poly + guard, "x >= -EL_GUARD_SUB")
@@ -177,7 +188,7 @@ def project_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 
 def snapped(machine: Machine, arguments: list[Any]) -> Number:
     """snap, proven above."""
-    guard = guard_sub(machine)
+    guard = constant_of(machine, "EL_GUARD_SUB")
     return machine.number("int32_t", "snapped", -guard, guard)
 
 
@@ -224,6 +235,7 @@ MIX = Subject(CLIP, "mix", mix_domain, mix_check)
 def inside_domain(machine: Machine) -> list[Any]:
     path = machine.path
     transform = transform_of(machine, near=path.atom("near", 1, 2**30 - 1), far=path.atom("far", 1, 2**31 - 1))
+    transform = two_guard_shifts(machine, transform)
     plane = machine.exactly("uint32_t", path.choose(path.atom("plane", 0, 5)))
     return [Pointer([transform]), Pointer([clip_vertex(machine)]), plane]
 
@@ -232,6 +244,13 @@ MOST_INSIDE = 2**42 + 2**31
 
 
 def inside_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """near <= d <= far, -w << guard_shift <= x, y <= w << guard_shift: what is left to the plane."""
+    transform, vertex, plane = arguments[0].cell, arguments[1].cell, arguments[2].poly.known
+    x, y, d = (machine.poly(vertex, axis) for axis in "xyd")
+    x_side, y_side = (side_of(machine, transform, vertex, axis) for axis in (0, 1))
+    near, far = machine.poly(transform, "near"), machine.poly(transform, "far")
+    distance = (d - near, far - d, x + x_side, x_side - x, y + y_side, y_side - y)[plane]
+    require((result.poly - distance).constant == 0, "the distance to the plane")
     require(machine.path.within(result.poly, -MOST_INSIDE, MOST_INSIDE), "|inside| <= 2^42 + 2^31")
 
 
@@ -267,12 +286,17 @@ def cut_domain(machine: Machine) -> list[Any]:
         machine.put(corner.content["attributes"], [path.atom(f"{name}{i}", -(2**30), 2**30) for i in range(5)])
         corners.append(Pointer([corner]))
     numbers = machine.exactly("int64_t", da), machine.exactly("int64_t", db)
-    return [Pointer([transform]), corners[0], numbers[0], corners[1], numbers[1], machine.exactly("uint32_t", plane)]
+    new = Pointer([machine.struct("el_clip_corner")])
+    which = machine.exactly("uint32_t", plane)
+    return [Pointer([transform]), corners[0], numbers[0], corners[1], numbers[1], which, new]
 
 
 def cut_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """t is the exact 2^31 da / (da - db) with an error in (-2, 1]."""
+    """t is the exact 2^31 da / (da - db) with an error in (-2, 1], and the new corner is on the plane exactly."""
     path = machine.path
+    position = Pointer([arguments[6].cell.content["position"]])
+    distance = machine.call("inside", arguments[0], position, arguments[5])
+    path.prove(distance.poly, "the new corner is on the plane", zero=True)
     t = machine.locals["cut.t_q31"].poly
     shift = 1 << machine.locals["cut.shift"].poly.known
     da, db = arguments[2].poly, arguments[4].poly
@@ -295,13 +319,13 @@ def mixed(machine: Machine, arguments: list[Any]) -> Number:
     path.prove(2**31 - t, "t <= 1")
     low = min(path.bounds(a)[0], path.bounds(b)[0])
     high = max(path.bounds(a)[1], path.bounds(b)[1])
-    if machine.scopes[0]["which"].content.poly.known >= 2:
+    if machine.scopes[0]["plane"].content.poly.known >= 2:
         guard = 1 << machine.poly(machine.scopes[0]["transform"].content.cell, "guard_shift", 0).known
         low, high = -(MOST_COORDINATE // guard), MOST_COORDINATE // guard
     return machine.number("int32_t", "mixed", low, high)
 
 
-CUT = Subject(CLIP, "cut", cut_domain, cut_check, contracts={"mix": mixed})
+CUT = Subject(CLIP, "cut", cut_domain, cut_check, contracts={**contracts.DIVISION, "mix": mixed})
 
 
 def prove_side_plane(error: int) -> None:
@@ -328,17 +352,43 @@ def prove_side_plane(error: int) -> None:
         path.prove(wide - x, "between xa and xb")
 
 
-def clamp_domain(machine: Machine) -> list[Any]:
-    """Limits are w << guard_shift with w >= 1."""
-    return [machine.number("int32_t", "value"), machine.number("int64_t", "limit", 1, (2**31 - 1) << 11)]
+def put_back_domain(machine: Machine) -> list[Any]:
+    """What the planes have left: three corners, one of them anywhere with w >= 1. Each is put back by itself.
+
+    The places behind them are not the function's: they keep what the corners were.
+    """
+    path = machine.path
+    transform = two_guard_shifts(machine, transform_of(machine))
+    corners = [machine.struct("el_clip_corner") for _ in range(constant_of(machine, "EL_CLIP_MAX_VERTICES"))]
+    anywhere = path.choose(path.atom("corner", 0, 2))
+    for i in range(3):
+        middle = machine.struct("el_clip_vertex", x=0, y=0, d=1, w=1)
+        vertex = clip_vertex(machine, least_w=1) if i == anywhere else middle
+        for place in (i, i + 3):
+            machine.put(corners[place].content["position"], vertex)
+    return [Pointer([transform]), Pointer(corners), machine.exactly("uint32_t", 3), machine.exactly("uint8_t", 0)]
 
 
-def clamp_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    machine.path.prove(arguments[1].poly - result.poly, "<= limit")
-    machine.path.prove(arguments[1].poly + result.poly, ">= -limit")
+def put_back_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """|x|, |y| <= w << guard_shift; what was is what is, or was beyond the limit that it is on now."""
+    path = machine.path
+    transform, corners = arguments[0].cell, arguments[1].cells
+    require(result.poly.known == 3, "all corners are left")
+    for new, old in ((corners[i].content["position"], corners[i + 3].content["position"]) for i in range(3)):
+        for axis in "dw":
+            require((machine.poly(new, axis) - machine.poly(old, axis)).constant == 0, f"{axis} stays")
+        for i, axis in enumerate("xy"):
+            is_, was, side = machine.poly(new, axis), machine.poly(old, axis), side_of(machine, transform, new, i)
+            path.prove(side - is_, f"{axis} <= w << guard_shift")
+            path.prove(side + is_, f"{axis} >= -w << guard_shift")
+            if (is_ - was).constant != 0:
+                upper = (is_ - side).constant == 0
+                require(upper or (is_ + side).constant == 0, f"{axis} is on a limit")
+                path.prove(was - side if upper else -side - was, f"{axis} was beyond it")
 
 
-CLAMP = Subject(CLIP, "clamp_to", clamp_domain, clamp_check)
+# With no plane to cut at, what is left of the function is what it does to the corners after the cuts.
+PUT_BACK = Subject(CLIP, "el_clip_polygon", put_back_domain, put_back_check)
 
 
 SUBJECTS = {
@@ -350,7 +400,7 @@ SUBJECTS = {
     "mix": MIX,
     "inside": INSIDE,
     "cut": CUT,
-    "clamp_to": CLAMP,
+    "put back": PUT_BACK,
 }
 
 
@@ -379,7 +429,7 @@ def test_a_side_plane() -> None:
 
 
 @EVERY_PRECISION
-@pytest.mark.parametrize("name", ["form_value", "outcode", "snap", "mix", "inside", "clamp_to"])
+@pytest.mark.parametrize("name", ["form_value", "outcode", "snap", "mix", "inside", "put back"])
 def test_the_compiler_agrees(name: str, bits: int) -> None:
     subject = SUBJECTS[name]
     Subject(subject.file, subject.function, subject.domain, modular=subject.modular).agree(bits, count=100)
@@ -394,9 +444,16 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
         ("project, perspective", TRANSFORM, "rest > 0x7FFFU ? 0x7FFFU", "rest > 0x8000U ? 0x8000U"),
         ("project, orthographic", TRANSFORM, "z > EL_DEPTH_MAX ? EL_DEPTH_MAX", "z > EL_DEPTH_MAX + 1 ? EL_DEPTH_MAX"),
         ("mix", CLIP, "+ (1LL << 30)) >> 31", "+ (1LL << 30) + 1) >> 31"),
-        ("inside", CLIP, "x_limit = (int64_t)v->w * (1", "x_limit = v->w * (1"),
+        ("inside", CLIP, "side = (int64_t)v->w * (1", "side = v->w * (1"),
+        ("inside", CLIP, "plane / 2 - 1]", "plane / 3]"),
+        ("inside", CLIP, "plane < 4 ? &v->x", "plane < 3 ? &v->x"),
+        ("inside", CLIP, "return (plane & 1U) == 0 ? -side : side", "return (plane & 1U) == 0 ? side : -side"),
         ("cut", CLIP, "el_bit_length_u64(whole) - 32", "el_bit_length_u64(whole) - 34"),
-        ("clamp_to", CLIP, "if (value > limit)", "if (value > limit + 1)"),
+        ("cut", CLIP, "if (plane > PLANE_FAR) {", "if (plane > PLANE_FAR + 1) {"),
+        ("cut", CLIP, "position.w = 0;\n    if (plane <= PLANE_FAR)", "position.w = 0;\n    if (plane < PLANE_FAR)"),
+        ("put back", CLIP, ".position, plane) < 0)", ".position, plane) < -1)"),
+        ("put back", CLIP, ".position, plane) < 0)", ".position, plane) <= 1)"),
+        ("put back", CLIP, "plane = PLANE_FAR + 1;", "plane = PLANE_FAR + 2;"),
     ],
 )
 def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:
