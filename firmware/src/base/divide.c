@@ -4,9 +4,11 @@
 
 #include "base/fixed.h"
 
+/* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
 EL_INLINE_HERE uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder);
 EL_INLINE_HERE uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor);
 EL_INLINE_HERE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor);
+/* NOLINTEND(readability-redundant-declaration) */
 
 /* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
  * one, a short routine elsewhere. */

@@ -65,14 +65,14 @@ typedef struct el_transform {
     uint8_t depth_shift;
     int8_t near_shift;
     uint16_t size[2];
-    int32_t rows[3][3]; /* x, y, d per position unit, times 2^shift */
-    int64_t offsets[3]; /* |offset| < 2^62 */
-    int32_t near;       /* in the draw's unit: 1 <= near < 2^30 */
-    int32_t far;        /* likewise, or INT32_MAX */
-    int32_t constant_w; /* orthographic: w of every vertex */
-    uint32_t near_bits; /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
+    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift */
+    int64_t offsets[3];   /* |offset| < 2^62 */
+    int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
+    int32_t far;          /* likewise, or INT32_MAX */
+    int32_t constant_w;   /* orthographic: w of every vertex */
+    uint32_t near_bits;   /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
                            give near 31 bits */
-    uint64_t near_q32;  /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
 } el_transform;
 
