@@ -147,6 +147,8 @@ def test_ctrl_c_ends_a_recording_and_keeps_it(tmp_path: Path) -> None:
             env=environment(),
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
+            # What a shell starts with & ignores Ctrl+C, and so do its children, the tests among them.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         )
         while len(served.device.sent) < 10:
             time.sleep(0.01)
