@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import compare, frames
+from . import codec, compare, frames
 from .machines import (
     BENCH,
     CORES,
@@ -39,6 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--scenes", action="store_true", help="print the frames' instruction counts")
     what.add_argument("--profile", metavar="SCENE", help="print which functions a scene's instructions go to")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
+    what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -76,6 +77,11 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
     if options.profile is not None:
         for core in CORES:
             _print_profile(core, machines.profile(core, options.profile))
+    if options.codec or options.all:
+        streams = codec.measure(machines, verdicts)
+        print(codec.table(streams))
+        if options.all:
+            _write_json(RESULTS / "codec.json", {"sequences": codec.rows(streams)})
     if options.alternatives or options.all:
         groups = compare.measure(machines, verdicts)
         print(compare.table(groups))
