@@ -147,8 +147,9 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
     const el_port link = el_posix_port_link(port);
     port->bytes_per_s = (uint32_t)(o->baud / 10); /* a start bit, 8 bits, a stop bit */
 
-    const size_t memory_bytes = EL_STREAM_MEMORY_BYTES(o->common.machine.width, o->common.machine.height);
-    uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT)];
+    /* No board has pictures of this size. */
+    static uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT) +
+                          EL_STREAM_SEGMENT_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT)];
     el_player player = {.scene = subject->scene};
     const el_stream_config config = {
         .port = &link,
@@ -160,8 +161,9 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
         .one_way = o->link == LINK_STDOUT,
         .input = subject->scene != NULL ? el_player_input : NULL,
         .input_context = &player,
+        .segments = true,
         .memory = memory,
-        .memory_bytes = memory_bytes,
+        .memory_bytes = sizeof memory,
     };
     el_stream stream;
     if (el_stream_init(&stream, &config) != 0) {

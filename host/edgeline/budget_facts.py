@@ -8,9 +8,9 @@ EL_MAX_HEIGHT = 2040
 EL_MAX_WIDTH = 2040
 EL_MESH_MAX_VERTICES = 65535
 EL_MIN_LIST_BYTES = 512
-EL_PACKET_OVERHEAD_BYTES = 6
 EL_RUN_BYTES = 32
-EL_STREAM_BAND_HEADER_BYTES = 8
+EL_SPLIT_FULL_BYTES = 1000
+EL_SPLIT_MAX_GAP = 12
 EL_STREAM_WIRE_BYTES = 512
 EL_SUBPIXEL_BITS = 4
 EL_TEXTURED_TRIANGLE_BYTES = 32
@@ -18,8 +18,8 @@ EL_TRIANGLE_BYTES = 24
 EL_VERTEX_BYTES = 10
 
 STRUCT_BYTES: dict[int, dict[str, int]] = {
-    32: {"el_renderer": 280, "el_tft": 52, "el_oled": 40, "el_stream": 740},
-    64: {"el_renderer": 344, "el_tft": 88, "el_oled": 64, "el_stream": 824},
+    32: {"el_renderer": 280, "el_tft": 52, "el_oled": 40, "el_stream": 1072},
+    64: {"el_renderer": 344, "el_tft": 88, "el_oled": 64, "el_stream": 1168},
 }
 """By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
 
@@ -119,9 +119,14 @@ def el_round_up_8(bytes: int) -> int:
     return (bytes + 7) // 8 * 8
 
 
-def el_runs_line_max_bytes(width: int) -> int:
-    """EL_RUNS_LINE_MAX_BYTES of stream/runs.h."""
-    return 2 * width + (width + 127) // 128
+def el_split_buffer_bytes(width: int) -> int:
+    """EL_SPLIT_BUFFER_BYTES of stream/split.h."""
+    return (EL_SPLIT_FULL_BYTES + EL_SPLIT_MAX_GAP + el_split_line_max_bytes(width) + 1) // 2 * 2
+
+
+def el_split_line_max_bytes(width: int) -> int:
+    """EL_SPLIT_LINE_MAX_BYTES of stream/split.h."""
+    return 2 * width + (width + 7) // 8
 
 
 def el_ssd0323_memory_bytes(band_lines: int) -> int:
@@ -139,21 +144,11 @@ def el_ssd1306_pages(band_lines: int) -> int:
     return 1 if 8 % band_lines == 0 else band_lines // 8 if band_lines % 8 == 0 else (band_lines + 14) // 8
 
 
-def el_stream_line_packet_bytes(width: int) -> int:
-    """EL_STREAM_LINE_PACKET_BYTES of stream/session.h."""
-    return EL_PACKET_OVERHEAD_BYTES + EL_STREAM_BAND_HEADER_BYTES + el_runs_line_max_bytes(width)
+def el_stream_build_bytes(width: int) -> int:
+    """EL_STREAM_BUILD_BYTES of stream/session.h."""
+    return 2 * width + el_split_buffer_bytes(width)
 
 
 def el_stream_memory_bytes(width: int, height: int) -> int:
     """EL_STREAM_MEMORY_BYTES of stream/session.h."""
-    return 3 + 4 * height + (height + 7) // 8 + el_stream_token_bytes(width)
-
-
-def el_stream_packet_bytes(width: int) -> int:
-    """EL_STREAM_PACKET_BYTES of stream/session.h."""
-    return el_stream_line_packet_bytes(width) if el_stream_line_packet_bytes(width) > 1024 else 1024
-
-
-def el_stream_token_bytes(width: int) -> int:
-    """EL_STREAM_TOKEN_BYTES of stream/session.h."""
-    return el_stream_packet_bytes(width) // 3
+    return 3 + 4 * height + (height + 7) // 8 + el_stream_build_bytes(width)

@@ -1,4 +1,4 @@
-"""The bodies of the packets, both ways: one dataclass per packet of WIRE.md, version 1.1.
+"""The bodies of the packets, both ways: one dataclass per packet of WIRE.md, version 1.2.
 
 `decode` checks every rule that a body can break by itself and raises WireError; what depends on the session (the order
 of bands, digests, credits) is checked in `session`. All numbers are little-endian.
@@ -68,6 +68,7 @@ class Capability(IntFlag):
 class Codec(IntEnum):
     RAW = 0
     RUNS = 1
+    SPLIT = 2
 
 
 class Control(IntEnum):
@@ -81,7 +82,7 @@ class Control(IntEnum):
     """1: the scene stays at its frame; 0: it goes on"""
 
 
-DECODABLE = Capability.RAW | Capability.RUNS
+DECODABLE = Capability.RAW | Capability.RUNS | Capability.SPLIT
 
 
 @dataclass(frozen=True)
@@ -140,8 +141,8 @@ class Hello:
         if pixels != RGB565:
             raise DeviceError(f"{target} sends pixel format {pixels}, this host knows RGB565 alone: update the host")
         if not capabilities & DECODABLE:
-            raise DeviceError(f"{target} offers neither raw nor run-length bands: update the host")
-        known = Capability(capabilities & (DECODABLE | Capability.SPLIT | Capability.SKIPS_LINES | Capability.INPUT))
+            raise DeviceError(f"{target} offers no codec that this host knows: update the host")
+        known = Capability(capabilities & (DECODABLE | Capability.SKIPS_LINES | Capability.INPUT))
         return cls(width, height, known, boot_id, target, firmware, minor, segment, largest, baud)
 
 
@@ -154,7 +155,7 @@ class Start:
 
     credits: int
     fps: int = 0
-    codecs: Capability = DECODABLE
+    codecs: Capability = Capability.RAW | Capability.RUNS
     mode: int = 0
 
     def encode(self) -> bytes:
@@ -164,15 +165,21 @@ class Start:
     def decode(cls, body: bytes) -> Start:
         _need(body, cls._LAYOUT.size, "START")
         mode, count, fps, codecs = cls._LAYOUT.unpack_from(body)
-        return cls(count, fps, Capability(codecs & (DECODABLE | Capability.SPLIT)), mode)
+        return cls(count, fps, Capability(codecs & DECODABLE), mode)
 
 
 @dataclass(frozen=True)
 class Band:
-    """Lines y0 .. y0 + lines - 1 of `frame`, still encoded: `tokens` u8, then `literals`, RGB565 u16."""
+    """Lines y0 .. y0 + lines - 1 of `frame`, still encoded: `tokens` u8, then `literals`, RGB565 u16.
+
+    Codec.SPLIT only: `lags` is empty, or has a bit per line; `joined`: the first line depends on the one above.
+    """
 
     TYPE: ClassVar = PacketType.BAND
     _LAYOUT: ClassVar = struct.Struct("<HHBBH")
+    _CODEC: ClassVar = 7
+    _LAGS: ClassVar = 8
+    _JOINED: ClassVar = 16
 
     frame: int
     y0: int
@@ -180,10 +187,13 @@ class Band:
     codec: Codec
     tokens: bytes
     literals: bytes
+    lags: bytes = b""
+    joined: bool = False
 
     def encode(self) -> bytes:
-        fixed = self._LAYOUT.pack(self.frame, self.y0, self.lines, self.codec, len(self.tokens))
-        return fixed + self.tokens + self.literals
+        flags = self.codec | (self._LAGS if self.lags else 0) | (self._JOINED if self.joined else 0)
+        fixed = self._LAYOUT.pack(self.frame, self.y0, self.lines, flags, len(self.tokens))
+        return fixed + self.lags + self.tokens + self.literals
 
     @classmethod
     def decode(cls, body: bytes) -> Band:
@@ -191,11 +201,23 @@ class Band:
         frame, y0, lines, flags, tokens = cls._LAYOUT.unpack_from(body)
         if lines == 0:
             raise WireError("a BAND without lines")
-        if flags not in (Codec.RAW, Codec.RUNS):
+        codec = flags & cls._CODEC
+        allowed = cls._LAGS | cls._JOINED if codec == Codec.SPLIT else 0
+        if codec > max(Codec) or flags & ~(cls._CODEC | allowed):
             raise WireError(f"a BAND with the unknown codec byte 0x{flags:02x}")
-        first_literal = cls._LAYOUT.size + tokens
+        first_token = cls._LAYOUT.size + (-(-lines // 8) if flags & cls._LAGS else 0)
+        first_literal = first_token + tokens
         _need(body, first_literal, "BAND")
-        return cls(frame, y0, lines, Codec(flags), body[cls._LAYOUT.size : first_literal], body[first_literal:])
+        return cls(
+            frame,
+            y0,
+            lines,
+            Codec(codec),
+            body[first_token:first_literal],
+            body[first_literal:],
+            body[cls._LAYOUT.size : first_token],
+            bool(flags & cls._JOINED),
+        )
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from enum import Enum, auto
 
 import numpy as np
 
-from edgeline import codec, framing, protocol
+from edgeline import codec, framing, protocol, split
 from edgeline.codec import PIXEL, Pixels
 from edgeline.errors import DeviceError, EdgelineError, WireError
 from edgeline.protocol import Hello
@@ -119,6 +119,8 @@ class _Assembly:
     bands: int = 0
     next_y: int = 0
     gap: bool = False
+    split: list[protocol.Band] = field(default_factory=list)
+    """those that wait to be decoded together"""
 
 
 @dataclass
@@ -274,38 +276,68 @@ class Session:
 
     def _band(self, band: protocol.Band) -> list[Event]:
         height, width = self._picture.shape
+        events: list[Event] = []
         if self._assembly is None or self._assembly.frame != band.frame:
-            self._abandon()
+            events += self._abandon()
             self._assembly = _Assembly(band.frame)
         assembly = self._assembly
         if band.y0 < assembly.next_y or band.y0 + band.lines > height:
-            return self._damage(f"frame {band.frame}: a band of {band.lines} lines at line {band.y0} is out of place")
+            reason = f"frame {band.frame}: a band of {band.lines} lines at line {band.y0} is out of place"
+            return events + self._damage(reason)
         try:
-            pixels = codec.decode(band, width)
+            if band.codec is protocol.Codec.SPLIT:
+                split.check_size(band, width)
+                assembly.split.append(band)
+            else:
+                events += self._draw_split(assembly)
+                self._draw(band.y0, codec.decode(band, width))
         except WireError as error:
-            return self._damage(f"frame {band.frame}: {error}")
-        self._picture[band.y0 : band.y0 + band.lines] = pixels
-        for y, line in enumerate(pixels, band.y0):
-            self._line_crcs[y] = zlib.crc32(line)
+            return events + self._damage(f"frame {band.frame}: {error}")
         assembly.bands += 1
         assembly.next_y = band.y0 + band.lines
+        return events
+
+    def _draw(self, y0: int, pixels: Pixels) -> None:
+        self._picture[y0 : y0 + len(pixels)] = pixels
+        for y, line in enumerate(pixels, y0):
+            self._line_crcs[y] = zlib.crc32(line)
+
+    def _draw_split(self, assembly: _Assembly) -> list[Event]:
+        """Draws the bands of codec 2 that have come: together, which is what their decoder is quick at."""
+        bands, assembly.split = assembly.split, []
+        if not bands:
+            return []
+        try:
+            split.decode(bands, self._picture)
+        except WireError as error:
+            return self._damage(f"frame {assembly.frame}: {error}")
+        for band in bands:
+            for y in range(band.y0, band.y0 + band.lines):
+                self._line_crcs[y] = zlib.crc32(self._picture[y])
         return []
 
-    def _abandon(self) -> None:
-        """The next frame begins, and this one's FRAME_END was lost: its credit would be lost with it."""
-        if self._assembly is not None and self._assembly.gap:
-            self._send(protocol.Ack(self._assembly.frame, 1))
+    def _abandon(self) -> list[Event]:
+        """The next frame begins, and this one's FRAME_END was lost: its credit would be lost with it. What came of it
+        is part of the picture that the next one goes on from."""
+        events: list[Event] = []
+        if self._assembly is not None:
+            events = self._draw_split(self._assembly)
+            if self._assembly.gap:
+                self._send(protocol.Ack(self._assembly.frame, 1))
         self._assembly = None
+        return events
 
     def _frame_end(self, end: protocol.FrameEnd) -> list[Event]:
         if end.frame == self._finished:
             return []
+        events: list[Event] = []
         if self._assembly is not None and self._assembly.frame != end.frame:
-            self._abandon()
+            events += self._abandon()
+        if self._assembly is not None:
+            events += self._draw_split(self._assembly)
         bands = self._assembly.bands if self._assembly is not None else 0
         self._assembly = None
         self._finished = end.frame
-        events: list[Event] = []
         if bands != end.bands:
             events += self._damage(f"frame {end.frame}: {bands} of {end.bands} bands arrived")
         elif zlib.crc32(self._line_crcs.tobytes()) != end.digest:

@@ -104,7 +104,7 @@ def test_hellos_that_break_a_rule_are_damage(data: bytes, message: str) -> None:
         (patched(4, b"\x02"), r"version 2\.1 .* update the host"),
         (b"EDGL\x00\x09", r"version 0\.9 .* update the firmware"),
         (patched(10, b"\x02"), "pixel format 2"),
-        (patched(16, struct.pack("<I", 4 | 256)), "neither raw nor run-length"),
+        (patched(16, struct.pack("<I", 8 | 256)), "offers no codec"),
     ],
 )
 def test_devices_that_cannot_be_served_are_named(data: bytes, message: str) -> None:
@@ -112,7 +112,7 @@ def test_devices_that_cannot_be_served_are_named(data: bytes, message: str) -> N
         Hello.decode(data)
 
 
-@pytest.mark.parametrize("flags", [2, 3, 7, 8, 0x80, 0x81])
+@pytest.mark.parametrize("flags", [3, 7, 8, 9, 0x11, 0x22, 0x42, 0x80, 0x81, 0x82])
 def test_unknown_codec_bytes_are_damage(flags: int) -> None:
     with pytest.raises(WireError, match="codec"):
         Band.decode(struct.pack("<HHBBH", 0, 0, 1, flags, 0))

@@ -59,7 +59,7 @@ static inline void device_init(test_device *device, fake_link *link, uint16_t wi
     config.one_way = one_way;
     device->memory_bytes = config.memory_bytes;
     TEST_ASSERT_EQUAL_INT(0, el_stream_init(&device->stream, &config));
-    TEST_ASSERT_EQUAL_UINT32(0, (uintptr_t)device->stream.line_crcs % 4);
+    TEST_ASSERT_EQUAL_UINT32(0, (uintptr_t)device->stream.crcs % 4);
     device->sink = el_stream_sink(&device->stream);
 }
 

@@ -4,11 +4,11 @@
 
 #include "stream_device.h"
 
-_Static_assert(EL_STREAM_MEMORY_BYTES(320, 240) == 1334, "the figure in session.h");
-_Static_assert(EL_STREAM_PACKET_BYTES(320) == 1024 && EL_STREAM_PACKET_BYTES(502) == 1024,
+_Static_assert(EL_STREAM_MEMORY_BYTES(320, 240) == (EL_STREAM_WITH_SPLIT ? 3325 : 1334), "the figures in session.h");
+_Static_assert(EL_STREAM_RUNS_PACKET_BYTES(320) == 1024 && EL_STREAM_RUNS_PACKET_BYTES(502) == 1024,
                "short lines share a packet");
-_Static_assert(EL_STREAM_PACKET_BYTES(504) == 14 + 2 * 504 + 4, "a long line has one of its own");
-_Static_assert(sizeof(el_stream) <= 900, "a session is small");
+_Static_assert(EL_STREAM_RUNS_PACKET_BYTES(504) == 14 + 2 * 504 + 4, "a long line has one of its own");
+_Static_assert(sizeof(el_stream) <= 900 + EL_STREAM_WITH_SPLIT * 360, "a session is small");
 
 static fake_link wire;
 static test_device dev;
@@ -33,8 +33,8 @@ static void expect_sent(const char *hex)
 }
 
 #define HELLO_3X3                                                                                                      \
-    "02 01 08 45 44 47 4C 01 01 03 02 03 02 01 01 01 01 04 04 03 03 01 01 03 C2 01 12 04 03 02 01 03 70 63 31 04 66 "  \
-    "77 20 32 75 E5 CA B8 00"
+    "02 01 08 45 44 47 4C 01 02 03 02 03 02 01 01 01 05 2A 04 07 03 01 01 03 C2 01 12 04 03 02 01 03 70 63 31 04 66 "  \
+    "77 20 32 26 75 E6 8C 00"
 #define BAND_RUNS "03 03 01 01 01 01 04 03 01 04 04 81 02 80 01 03 F8 01 02 02 02 03 01 01 07 34 12 3D E1 53 02 00 "
 #define FRAME_END_0                                                                                                    \
     "03 04 02 01 02 01 01 06 F0 FF FF F4 01 01 01 01 01 01 02 20 01 01 01 01 01 01 07 51 BD 63 F1 12 64 01 01 02 65 "  \

@@ -100,7 +100,8 @@ static void test_hello_at_once_and_every_second(void)
     }
     TEST_ASSERT_EQUAL_UINT32(16, host.width);
     TEST_ASSERT_EQUAL_UINT32(20, host.height);
-    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_PARTIAL | EL_STREAM_INPUT, host.capabilities);
+    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_SPLIT | EL_STREAM_PARTIAL | EL_STREAM_INPUT,
+                            host.capabilities);
 }
 
 static void test_ping_is_answered_in_any_state(void)
@@ -149,9 +150,9 @@ static void test_start_that_cannot_be_met_is_refused_aloud(void)
     start("01 02 00 00 03 00");
     TEST_ASSERT_EQUAL_UINT32(1, host.logs);
     TEST_ASSERT_EQUAL_STRING("START refused: this device knows mode 0 (BLOCK) only", host.log);
-    start("00 02 00 00 04 00");
+    start("00 02 00 00 08 00");
     TEST_ASSERT_EQUAL_UINT32(2, host.logs);
-    TEST_ASSERT_EQUAL_STRING("START refused: this device sends codecs 0 (raw) and 1 (runs) only", host.log);
+    TEST_ASSERT_EQUAL_STRING("START refused: it names no codec that this device sends", host.log);
     TEST_ASSERT_EQUAL_UINT32(0, draw());
     TEST_ASSERT_EQUAL_INT(EL_STREAM_WAITING, dev.stream.state);
 }

@@ -10,7 +10,9 @@ enum {
     MODE_BLOCK = 0,
     PIXEL_FORMAT_RGB565 = 1,
     PROTOCOL_MAJOR = 1,
-    PROTOCOL_MINOR = 1,
+    PROTOCOL_MINOR = 2,
+    OLD_CODECS = EL_STREAM_RAW | EL_STREAM_RUNS, /* what every host knows */
+    CODECS = OLD_CODECS | (EL_STREAM_WITH_SPLIT ? EL_STREAM_SPLIT : 0),
     HELLO_FIXED_BYTES = 28 + 2, /* the two length bytes included */
     HELLO_MAX_BYTES = HELLO_FIXED_BYTES + 2 * EL_STREAM_MAX_NAME_BYTES,
     START_BYTES = 6,
@@ -82,20 +84,21 @@ void el_stream_make_due(el_stream *stream, uint32_t y0, uint32_t y1)
 static void take_start(el_stream *stream, const uint8_t *body)
 {
     uint16_t frames_per_s = el_packet_get_u16(body + 2);
-    uint16_t codecs = el_packet_get_u16(body + 4) & (EL_STREAM_RAW | EL_STREAM_RUNS);
+    uint16_t codecs = el_packet_get_u16(body + 4) & CODECS;
 
     if (body[0] != MODE_BLOCK) {
         stream->notice = "START refused: this device knows mode 0 (BLOCK) only";
         return;
     }
     if (codecs == 0) {
-        stream->notice = "START refused: this device sends codecs 0 (raw) and 1 (runs) only";
+        stream->notice = "START refused: it names no codec that this device sends";
         return;
     }
     stream->state = EL_STREAM_RUNNING;
     stream->frame.sending = false;
     stream->credits = body[1];
     stream->codecs = codecs;
+    stream->asked = true;
     stream->dropped = 0;
     stream->period_us = frames_per_s == 0 ? 0 : 1000000U / frames_per_s;
     stream->frame_us = now_us(stream) - stream->period_us; /* the first frame is due at once */
@@ -114,6 +117,7 @@ static void take_key(el_stream *stream, const uint8_t *body)
     uint32_t y1 = y0 + el_packet_get_u16(body + 2);
     uint32_t height = stream->config.height;
     el_stream_make_due(stream, y0, y1 < height ? y1 : height);
+    stream->asked = true;
 }
 
 static void take_input(el_stream *stream, const uint8_t *body)
@@ -295,10 +299,10 @@ static void send_hello(el_stream *stream)
 {
     const el_stream_config *config = &stream->config;
     el_packet_writer *writer = &stream->writer;
-    uint32_t capabilities = EL_STREAM_RAW | EL_STREAM_RUNS;
+    uint32_t capabilities = OLD_CODECS;
 
     if (!config->one_way) {
-        capabilities |= EL_STREAM_PARTIAL | (config->input != NULL ? EL_STREAM_INPUT : 0U);
+        capabilities |= CODECS | EL_STREAM_PARTIAL | (config->input != NULL ? EL_STREAM_INPUT : 0U);
     }
     el_packet_begin(writer, EL_PACKET_HELLO);
     el_packet_put(writer, "EDGL", 4);
@@ -308,7 +312,7 @@ static void send_hello(el_stream *stream)
     el_packet_put_u16(writer, config->height);
     el_packet_put_u8(writer, PIXEL_FORMAT_RGB565);
     el_packet_put_u8(writer, 0);
-    el_packet_put_u16(writer, 0); /* lines are left out whole */
+    el_packet_put_u16(writer, stream->segment < config->width ? stream->segment : 0);
     el_packet_put_u16(writer, (uint16_t)EL_STREAM_PACKET_BYTES(config->width));
     el_packet_put_u32(writer, capabilities);
     el_packet_put_u32(writer, config->max_baud);
@@ -352,6 +356,12 @@ static bool is_name(const char *name)
     return name != NULL && text_bytes(name) <= EL_STREAM_MAX_NAME_BYTES;
 }
 
+static size_t memory_needed(const el_stream_config *config)
+{
+    return EL_STREAM_MEMORY_BYTES(config->width, config->height) +
+           (config->segments ? EL_STREAM_SEGMENT_MEMORY_BYTES(config->width, config->height) : 0);
+}
+
 static int check(const el_stream_config *config)
 {
     const el_port *port = config->port;
@@ -360,13 +370,35 @@ static int check(const el_stream_config *config)
         config->height > EL_STREAM_MAX_SIZE) {
         return EL_STREAM_BAD_SIZE;
     }
-    if (config->memory == NULL || config->memory_bytes < EL_STREAM_MEMORY_BYTES(config->width, config->height)) {
+    if (config->memory == NULL || config->memory_bytes < memory_needed(config)) {
         return EL_STREAM_BAD_MEMORY;
     }
     if (port == NULL || port->write == NULL || port->micros == NULL || (port->read == NULL && !config->one_way)) {
         return EL_STREAM_BAD_PORT;
     }
     return is_name(config->target) && is_name(config->firmware) ? 0 : EL_STREAM_BAD_NAME;
+}
+
+/* Gives each part of the memory its place, all zero, the most aligned first. */
+static void carve(el_stream *stream, uint8_t *memory)
+{
+    const el_stream_config *config = &stream->config;
+    const bool segments = EL_STREAM_WITH_SPLIT && config->segments && config->width > EL_SPLIT_SEGMENT_PIXELS;
+    stream->segment = segments ? (uint16_t)EL_SPLIT_SEGMENT_PIXELS : config->width;
+    const size_t crcs = config->height * (((size_t)config->width - 1) / stream->segment + 1);
+
+    memset(memory, 0, memory_needed(config));
+    memory += -(uintptr_t)memory & 3;
+    stream->crcs = (uint32_t *)(void *)memory;
+    memory += 4 * crcs;
+#if EL_STREAM_WITH_SPLIT
+    stream->last_line = (uint16_t *)(void *)memory;
+    memory += 2 * (size_t)config->width;
+    el_split_init(&stream->split, memory, config->width);
+#endif
+    stream->tokens = memory;
+    stream->lines_due =
+        memory + (EL_STREAM_BUILD_BYTES(config->width) - 2 * (size_t)config->width * EL_STREAM_WITH_SPLIT);
 }
 
 int el_stream_init(el_stream *stream, const el_stream_config *config)
@@ -378,16 +410,10 @@ int el_stream_init(el_stream *stream, const el_stream_config *config)
     memset(stream, 0, sizeof *stream);
     stream->config = *config;
 
-    uint8_t *memory = config->memory;
-    memory += -(uintptr_t)memory & 3;
-    stream->line_crcs = (uint32_t *)(void *)memory;
-    stream->lines_due = memory + 4 * (size_t)config->height;
-    stream->tokens = stream->lines_due + (config->height + 7U) / 8;
-    memset(memory, 0, (size_t)(stream->tokens - memory));
-
+    carve(stream, config->memory);
     el_packet_writer_init(&stream->writer, stream->wire, sizeof stream->wire, drain, stream);
     stream->state = config->one_way ? EL_STREAM_RUNNING : EL_STREAM_WAITING;
-    stream->codecs = EL_STREAM_RAW | EL_STREAM_RUNS;
+    stream->codecs = OLD_CODECS; /* one-way; others say it in START */
     stream->hello_due = true;
     stream->hello_us = now_us(stream);
     return 0;

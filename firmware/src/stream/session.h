@@ -36,6 +36,7 @@
 #include "base/port.h"
 #include "stream/packet.h"
 #include "stream/runs.h"
+#include "stream/split.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +53,7 @@ enum {
                                     change of its CRC is wrong for height/2 frames at most */
     EL_STREAM_RAW = 1,           /* codecs, as START and HELLO have them */
     EL_STREAM_RUNS = 2,
+    EL_STREAM_SPLIT = 4,
     EL_STREAM_PARTIAL = 256, /* capability: unchanged lines are left out */
     EL_STREAM_INPUT = 512    /* capability: the device takes INPUT */
 };
@@ -70,25 +72,48 @@ enum {
 #define EL_STREAM_WIRE_BYTES 512
 #endif
 
-/* The largest packet before COBS: about 1 KB, since longer ones gain little and cost more when they are damaged; and
- * one line, whatever it holds. */
+/* 0 leaves codec 2 (split.h) out, and its memory and 2.3 KB of code with it; defined for all files alike. */
+#ifndef EL_STREAM_WITH_SPLIT
+#define EL_STREAM_WITH_SPLIT 1
+#endif
+
+/* The largest packets before COBS: about 1 KB, since longer ones gain little and cost more when they are damaged; and one
+ * line, whatever it holds. Codec 2 finds out how long a line is by encoding it: there a packet is 1 KB and one line. */
 #define EL_STREAM_LINE_PACKET_BYTES(width)                                                                             \
     (EL_PACKET_OVERHEAD_BYTES + (int)EL_STREAM_BAND_HEADER_BYTES + EL_RUNS_LINE_MAX_BYTES(width))
-#define EL_STREAM_PACKET_BYTES(width)                                                                                  \
+#define EL_STREAM_RUNS_PACKET_BYTES(width)                                                                             \
     (EL_STREAM_LINE_PACKET_BYTES(width) > 1024 ? EL_STREAM_LINE_PACKET_BYTES(width) : 1024)
+#define EL_STREAM_SPLIT_PACKET_BYTES(width)                                                                            \
+    (EL_PACKET_OVERHEAD_BYTES + (int)EL_STREAM_BAND_HEADER_BYTES + ((int)EL_SPLIT_MAX_LINES + 7) / 8 +                 \
+     EL_SPLIT_BUFFER_BYTES(width))
+#if EL_STREAM_WITH_SPLIT
+#define EL_STREAM_PACKET_BYTES(width) EL_STREAM_SPLIT_PACKET_BYTES(width)
+#else
+#define EL_STREAM_PACKET_BYTES(width) EL_STREAM_RUNS_PACKET_BYTES(width)
+#endif
 
-/* A packet's tokens: each comes with a literal of two bytes. */
-#define EL_STREAM_TOKEN_BYTES(width) (EL_STREAM_PACKET_BYTES(width) / 3)
+/* What a packet is built in. Codec 1: its tokens, each with a literal of two bytes, which stays where it is. Codec 2: its
+ * tokens and literals, which hold the former as well, and the line above. */
+#define EL_STREAM_TOKEN_BYTES(width) (EL_STREAM_RUNS_PACKET_BYTES(width) / 3)
+#if EL_STREAM_WITH_SPLIT
+#define EL_STREAM_BUILD_BYTES(width) (2 * (size_t)(width) + (size_t)EL_SPLIT_BUFFER_BYTES(width))
+#else
+#define EL_STREAM_BUILD_BYTES(width) ((size_t)EL_STREAM_TOKEN_BYTES(width))
+#endif
 
-/* What `memory` must hold: a CRC and a bit per line, a packet's tokens, and 3 bytes for the alignment. 1,334 bytes at
- * 320 x 240; the pixels of a packet are never copied. */
+/* What `memory` must hold: a CRC and a bit per line, a packet, and 3 bytes for the alignment. 3,325 bytes at 320 x 240, or
+ * 1,334 without codec 2. */
 #define EL_STREAM_MEMORY_BYTES(width, height)                                                                          \
-    (3 + 4 * (size_t)(height) + ((size_t)(height) + 7) / 8 + (size_t)EL_STREAM_TOKEN_BYTES(width))
+    (3 + 4 * (size_t)(height) + ((size_t)(height) + 7) / 8 + EL_STREAM_BUILD_BYTES(width))
+
+/* What it must hold besides for `segments`: a CRC per segment instead. 3,840 bytes at 320 x 240. */
+#define EL_STREAM_SEGMENT_MEMORY_BYTES(width, height)                                                                  \
+    (4 * (size_t)(height) * (((size_t)(width)-1) / (size_t)EL_SPLIT_SEGMENT_PIXELS))
 
 /* Errors of el_stream_init and el_stream_log. */
 enum {
     EL_STREAM_BAD_SIZE = -1,   /* width or height outside 1..EL_STREAM_MAX_SIZE */
-    EL_STREAM_BAD_MEMORY = -2, /* memory is NULL or smaller than EL_STREAM_MEMORY_BYTES(width, height) */
+    EL_STREAM_BAD_MEMORY = -2, /* memory is NULL or smaller than the macros above say */
     EL_STREAM_BAD_PORT = -3,   /* port is NULL or lacks write, read (unless one_way) or micros */
     EL_STREAM_BAD_NAME = -4,   /* a name is NULL or longer than EL_STREAM_MAX_NAME_BYTES */
     EL_STREAM_LINK_GONE = -5
@@ -108,6 +133,9 @@ typedef struct el_stream_config {
      * NULL: the device takes no INPUT. */
     void (*input)(void *context, uint8_t control, int32_t value);
     void *input_context;
+    /* Leave out what has not changed in units of 64 pixels, not of lines, towards hosts that know codec 2. Takes
+     * EL_STREAM_SEGMENT_MEMORY_BYTES more; of no use without codec 2. */
+    bool segments;
     void *memory; /* the stream's as long as it is used; any alignment */
     size_t memory_bytes;
 } el_stream_config;
@@ -117,11 +145,13 @@ enum { EL_STREAM_WAITING, EL_STREAM_RUNNING, EL_STREAM_GONE };
 /* The frame that is being drawn. */
 typedef struct el_stream_frame {
     bool sending;
+    bool alone;          /* the host asked for lines: each packet does without what the host may not have */
     uint16_t number;     /* frames begun before it, modulo 65536 */
     uint16_t bands;      /* BAND packets sent */
     uint32_t begin_us;   /* when it began */
     uint32_t encode_us;  /* spent in the sink, waiting for the link included */
     uint32_t wire_bytes; /* of its bands */
+    uint32_t digest;     /* of the lines so far */
 } el_stream_frame;
 
 /* One session. The caller owns it and gives it to the functions below; state, credits, stalls, damaged and missed may be
@@ -132,17 +162,24 @@ typedef struct el_stream {
     el_packet_reader reader;
     uint8_t wire[EL_STREAM_WIRE_BYTES];
 
-    uint32_t *line_crcs; /* [height], of each line as it was sent last */
-    uint8_t *lines_due;  /* a bit per line: send it whatever it holds */
-    uint8_t *tokens;     /* of the band that is being encoded */
+    uint32_t *crcs;     /* [height] times a line's segments, each as it was sent last */
+    uint8_t *lines_due; /* a bit per line: send it whatever it holds */
+    uint8_t *tokens;    /* of the codec 1 band that is being encoded */
+#if EL_STREAM_WITH_SPLIT
+    el_split split;      /* the codec 2 band that is being encoded */
+    uint16_t split_y;    /* its first line */
+    uint16_t *last_line; /* of the band before, once it is no longer there */
+#endif
+    uint16_t segment; /* pixels that a CRC in `crcs` covers; a line's last may cover fewer */
 
     uint8_t state;
     uint8_t credits;      /* frames that may be sent */
     uint8_t next_seq;     /* expected from the host */
     bool hello_due;       /* at the next chance between two packets */
     bool input_came;      /* since the sink's last `begin` was called */
+    bool asked;           /* START or KEY came since the last frame that was sent began */
     bool stalled;         /* a one-way link that has not taken a HELLO since its last frame was given up */
-    uint16_t codecs;      /* EL_STREAM_RAW, EL_STREAM_RUNS: what the host decodes */
+    uint16_t codecs;      /* EL_STREAM_RAW, _RUNS, _SPLIT: what the host decodes */
     uint16_t dropped;     /* frames not sent since the last one that was, or since START; stops at 65535 */
     uint16_t refresh;     /* the next line of EL_STREAM_REFRESH_LINES */
     const char *notice;   /* to be sent as LOG, between two packets */

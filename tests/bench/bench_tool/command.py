@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import compare, frames, size
+from . import codec, compare, frames, size
 from .machines import (
     BENCH,
     CORES,
@@ -41,6 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
+    what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -85,6 +86,11 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
     if options.profile is not None:
         for core in CORES:
             _print_profile(core, machines.profile(core, options.profile))
+    if options.codec or options.all:
+        streams = codec.measure(machines, verdicts)
+        print(codec.table(streams))
+        if options.all:
+            _write_json(RESULTS / "codec.json", {"sequences": codec.rows(streams)})
     if options.alternatives or options.all:
         groups = compare.measure(machines, verdicts)
         print(compare.table(groups))
