@@ -179,7 +179,8 @@ def _seconds(text: str) -> float:
 def _session(options: argparse.Namespace, fps: int = 0) -> Session:
     """A session that sets the controls of the command line."""
     session = Session(fps=fps)
-    wishes = ((Control.SCENE, options.scene), (Control.FRAME, options.frame), (Control.PAUSE, options.pause or None))
+    # PAUSE first: a frame that is played before it arrives would move on from the one that is asked for.
+    wishes = ((Control.PAUSE, options.pause or None), (Control.SCENE, options.scene), (Control.FRAME, options.frame))
     for control, value in wishes:
         if value is not None:
             session.input(control, int(value))

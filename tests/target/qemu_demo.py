@@ -44,7 +44,8 @@ class Demo:
 
     def show(self, scene: int, frame: int) -> Pixels:
         """Has the board stand still at a frame; gives the picture that it streams then. Its display has it too."""
-        for control, value in (("scene", scene), ("frame", frame), ("pause", 1)):
+        # PAUSE first: a frame that is played between the other two would move on from the one that is asked for.
+        for control, value in (("pause", 1), ("scene", scene), ("frame", frame)):
             self.link.control(control, value)
         for _ in range(INPUT_FRAMES):
             picture = self.link.next_frame(10).picture
