@@ -94,9 +94,9 @@ def test_the_host_chooses_scene_and_frame(simulator: str, scenes: list[str], tmp
     with streaming(simulator, scenes[0], "--pty") as port:
         for number, scene in enumerate(scenes):
             with package.open(port) as link:
+                link.control("pause", 1)
                 link.control("scene", number)
                 link.control("frame", FRAMES - 2)
-                link.control("pause", 1)
                 first, second = link.next_frame(), link.next_frame()
                 truth = rendered(simulator, scene, (link.hello.width, link.hello.height), tmp_path)
                 assert np.array_equal(first.picture, truth[-2]), f"{scene}, first frame"

@@ -46,9 +46,9 @@ def test_display_and_stream_equal_the_simulator(
     expected = simulator.render(scene, size, tmp_path, panel, rotation=ROTATION, frames=FRAME + 1)[FRAME]
     with Pico(image_of(board_image, panel), tmp_path) as pico:
         host = Host(pico)
+        host.session.input(Control.PAUSE, 1)
         host.session.input(Control.SCENE, simulator.scenes().index(scene))
         host.session.input(Control.FRAME, FRAME)
-        host.session.input(Control.PAUSE, 1)
         frame = host.next_frame()
         assert_same_picture(frame.picture, expected, f"{scene}, stream")
         host.run_until_picture(frame.number)

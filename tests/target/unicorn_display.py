@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from edgeline.protocol import Control
 from edgeline.session import Event, Frame, Session
 from unicorn_core import TargetError
 from unicorn_stm32 import Chip
@@ -133,9 +134,8 @@ class Host:
         self.session.stop()
         self.chip.usart.feed(self.session.bytes_to_send())
         self.session = Session()
-        self.session.input(1, scene)
-        self.session.input(2, frame)
-        self.session.input(3, 1)
+        for control, value in ((Control.PAUSE, 1), (Control.SCENE, scene), (Control.FRAME, frame)):
+            self.session.input(control, value)
         self.frames.clear()
         self._taken = len(self.chip.usart.output)
 
