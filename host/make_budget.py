@@ -188,7 +188,7 @@ def functions() -> tuple[str, list[str]]:
 def scene_summaries() -> dict[str, str]:
     """What the tables of the scenes say of each."""
     text = "".join(path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("firmware/apps/*/*_scenes.c")))
-    return dict(re.findall(r'\{"([\w-]+)",\s*"([^"]+)"', text))
+    return dict(re.findall(r'\{\s*"([\w-]+)",\s*"([^"]+)"', text))
 
 
 def frames() -> str:

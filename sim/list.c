@@ -1,14 +1,21 @@
 #include <stdio.h>
+#include <string.h>
 
 #include "commands.h"
+#include "inputs.h"
 #include "report.h"
 #include "scene.h"
 
 int el_command_list(int argc, char **argv)
 {
-    (void)argv;
+    if (argc == 1 && strcmp(argv[0], "views") == 0) {
+        for (unsigned i = 0; i < el_view_count; i++) {
+            puts(el_view_names[i]);
+        }
+        return EL_EXIT_OK;
+    }
     if (argc != 0) {
-        return el_report("list takes no arguments");
+        return el_report("list takes no arguments, or `views`");
     }
     for (size_t i = 0; i < el_scene_count(); i++) {
         printf("%-12s %s\n", el_scene_at(i)->name, el_scene_at(i)->summary);

@@ -12,18 +12,26 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *arguments;
 } commands[] = {
-    {"list", el_command_list, ""},
+    {"list", el_command_list, "[views]"},
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm] [--size WxH] [--band N] [--arena BYTES]\n"
      "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N]\n"
      "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
-     "               [--shading flat|gouraud|textured]"},
+     "               [--shading flat|gouraud|textured]\n"
+     "               a debug view: [--view NAME], as `list views` names them\n"
+     "               with a scene: [--yaw N] [--pitch N] [--zoom N] [--pan-x N] [--pan-y N], as INPUT in WIRE.md has\n"
+     "               them, and [--shading flat|gouraud|textured]: without textures and vertex colours, or one of them"},
     {"stream", el_command_stream,
      "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N]\n"
      "               [--panel NAME [--rotation DEGREES]]\n"
-     "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE]"},
+     "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE [--max-baud RATE]]\n"
+     "               --pty, --tcp: prints the port's name, waits for a host, takes its INPUT; hosts may come and go\n"
+     "               --stdout: sends all frames to whoever reads, in codecs 0 and 1\n"
+     "               --baud: as a UART of this rate, RATE / 10 bytes a second, until the host asks for another one; "
+     "without,\n"
+     "               as fast as the link goes. --max-baud: the highest that it may ask for, 3000000 unless it is said"},
     {"look", el_command_look, "--panel NAME [--rotation DEGREES] TRACE [--png FILE] [--raw FILE]"},
     {"memory", el_command_memory,
      "[--panel NAME] [--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]\n"

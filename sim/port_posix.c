@@ -26,20 +26,22 @@
 
 enum {
     WAIT_MS = 1,
-    THROTTLE_AHEAD_US = 2000 /* the throttled link's own buffer: what it sends in this time */
+    QUEUE_BYTES = 1024, /* of a link with a rate; the Pico's ring has as many */
+    BITS_PER_BYTE = 10, /* a start bit, 8 bits, a stop bit */
+    NS_PER_S = 1000000000
 };
 
-static uint64_t now_us(void)
+static uint64_t now_ns(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000U + (uint64_t)now.tv_nsec / 1000U;
+    return (uint64_t)now.tv_sec * NS_PER_S + (uint64_t)now.tv_nsec;
 }
 
 static uint32_t port_micros(void *context)
 {
     (void)context;
-    return (uint32_t)now_us();
+    return (uint32_t)(now_ns() / 1000U);
 }
 
 /* --- The other end comes and goes ------------------------------------------------------------------------------ */
@@ -94,21 +96,31 @@ static bool is_not_now(int error)
 
 /* --- el_port --------------------------------------------------------------------------------------------------- */
 
-/* How many of `count` bytes the throttle lets through now. */
+/* What the rest of the queue leaves room for. A wire that was idle has saved nothing up. */
 static size_t throttled(el_posix_port *port, size_t count)
 {
-    uint64_t now = now_us();
+    const uint64_t now = now_ns();
 
-    if (port->throttle_us < now) {
-        port->throttle_us = now;
+    if (port->sent_ns < now) {
+        port->sent_ns = now;
     }
-    uint64_t ahead_us = port->throttle_us - now;
-    uint64_t room_us = ahead_us < THROTTLE_AHEAD_US ? THROTTLE_AHEAD_US - ahead_us : 0;
-    uint64_t room = room_us * port->bytes_per_s / 1000000U;
-    if (room == 0 && ahead_us == 0) {
-        room = 1; /* a link so slow that its buffer holds less than a byte */
-    }
-    return count < room ? count : (size_t)room;
+    const uint64_t queued = (port->sent_ns - now) * port->baud / ((uint64_t)BITS_PER_BYTE * NS_PER_S);
+    const size_t room = queued < QUEUE_BYTES ? (size_t)(QUEUE_BYTES - queued) : 0;
+    return count < room ? count : room;
+}
+
+static uint32_t port_find_baud(void *context, uint32_t rate)
+{
+    (void)context;
+    return rate;
+}
+
+static bool port_set_baud(void *context, uint32_t rate)
+{
+    el_posix_port *port = context;
+    const bool idle = port->sent_ns <= now_ns();
+    port->baud = idle ? rate : port->baud;
+    return idle;
 }
 
 static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
@@ -123,7 +135,7 @@ static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
     if (port->out < 0) {
         return 0;
     }
-    if (port->bytes_per_s != 0) {
+    if (port->baud != 0) {
         count = throttled(port, count);
     }
     /* Standard output may be shared with other processes, so it is not made non-blocking. A pipe that poll() calls
@@ -142,8 +154,8 @@ static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
     if (took < 0) {
         return nothing_moved(port, is_not_now(errno));
     }
-    if (port->bytes_per_s != 0) {
-        port->throttle_us += (uint64_t)took * 1000000U / port->bytes_per_s;
+    if (port->baud != 0) {
+        port->sent_ns += (uint64_t)took * BITS_PER_BYTE * NS_PER_S / port->baud;
     }
     port->full = (size_t)took < wanted;
     return (int32_t)took;
@@ -168,14 +180,20 @@ static void port_wait(void *context)
     el_posix_port *port = context;
     struct pollfd events[2] = {
         {.fd = port->in >= 0 ? port->in : port->listener, .events = POLLIN},
-        {.fd = port->full && port->bytes_per_s == 0 ? port->out : -1, .events = POLLOUT},
+        {.fd = port->full && port->baud == 0 ? port->out : -1, .events = POLLOUT},
     };
     poll(events, 2, WAIT_MS);
 }
 
 el_port el_posix_port_link(el_posix_port *port)
 {
-    return (el_port){.context = port, .write = port_write, .read = port_read, .micros = port_micros, .wait = port_wait};
+    return (el_port){.context = port,
+                     .write = port_write,
+                     .read = port_read,
+                     .micros = port_micros,
+                     .wait = port_wait,
+                     .find_baud = port->baud != 0 ? port_find_baud : NULL,
+                     .set_baud = port->baud != 0 ? port_set_baud : NULL};
 }
 
 /* --- Opening and closing --------------------------------------------------------------------------------------- */

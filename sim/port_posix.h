@@ -13,7 +13,7 @@
 
 #include "base/port.h"
 
-/* Private but for the throttle; all of it is the caller's, and stays where it is while the port is in use. */
+/* Private but for the rate; all of it is the caller's, and stays where it is while the port is in use. */
 typedef struct el_posix_port {
     int in;       /* -1: nothing to read from (now) */
     int out;      /* -1: nobody to write to (now) */
@@ -21,9 +21,10 @@ typedef struct el_posix_port {
     int slave;    /* pty: the other end, held open; else -1 */
     bool full;    /* the last write was cut short */
 
-    /* 0, or how many bytes per second `write` takes, as a UART does: baud / 10. May be changed at any time. */
-    uint32_t bytes_per_s;
-    uint64_t throttle_us; /* when the bytes taken so far have left */
+    /* 0: as fast as it goes. Else `write` takes what a UART of so many bits per second takes that has a queue of 1,024
+     * bytes: the other end has them early by as much, and no more of them in the long run. The host changes it. */
+    uint32_t baud;
+    uint64_t sent_ns; /* when the last bit of what was taken has left */
 } el_posix_port;
 
 /* Opens a pseudo-terminal and prints the path of the host's end as a line on stdout. */
@@ -36,7 +37,7 @@ bool el_posix_port_open_tcp(el_posix_port *port, uint16_t tcp_port);
 /* Writes to standard output and reads nothing: for a stream with `one_way`. Nothing else may print there. */
 bool el_posix_port_open_stdout(el_posix_port *port);
 
-/* The link as the stream sees it. `wait` returns when there is something to read or room to write, after 1 ms at most. */
+/* The link as the stream sees it; it has rates if `baud` is not 0 now. `wait` returns when there is something to read or room to write, after 1 ms at most. */
 el_port el_posix_port_link(el_posix_port *port);
 
 /* Closes what was opened. Standard output stays open. */

@@ -7,6 +7,7 @@
 #include "common_options.h"
 #include "files.h"
 #include "frame_name.h"
+#include "inputs.h"
 #include "machine.h"
 #include "png_file.h"
 #include "report.h"
@@ -15,6 +16,7 @@
 
 typedef struct render_options {
     el_common_options common;
+    el_inputs inputs;
     const char *png, *raw, *depth, *wire;
     bool crc, stats;
 } render_options;
@@ -35,6 +37,12 @@ static const char **text_of(render_options *o, int which)
         &o->common.subject.near,
         &o->common.subject.far,
         &o->common.subject.shading,
+        &o->inputs.view,
+        &o->inputs.yaw,
+        &o->inputs.pitch,
+        &o->inputs.zoom,
+        &o->inputs.pan_x,
+        &o->inputs.pan_y,
     };
     const int index = which - MESH;
     return index >= 0 && index < (int)(sizeof places / sizeof places[0]) ? places[index] : NULL;
@@ -43,7 +51,27 @@ static const char **text_of(render_options *o, int which)
 static bool parse(int argc, char **argv, render_options *o)
 {
     /* In the order of text_of. */
-    enum { MESH = EL_OPTION_OWN, PNG_FILE, RAW, DEPTH, WIRE, EYE, LOOK_AT, FOV, NEAR, FAR, SHADING, CRC, STATS };
+    enum {
+        MESH = EL_OPTION_OWN,
+        PNG_FILE,
+        RAW,
+        DEPTH,
+        WIRE,
+        EYE,
+        LOOK_AT,
+        FOV,
+        NEAR,
+        FAR,
+        SHADING,
+        VIEW,
+        YAW,
+        PITCH,
+        ZOOM,
+        PAN_X,
+        PAN_Y,
+        CRC,
+        STATS
+    };
     static const struct option options[] = {
         EL_COMMON_OPTIONS,
         {"mesh", required_argument, NULL, MESH},
@@ -57,6 +85,12 @@ static bool parse(int argc, char **argv, render_options *o)
         {"near", required_argument, NULL, NEAR},
         {"far", required_argument, NULL, FAR},
         {"shading", required_argument, NULL, SHADING},
+        {"view", required_argument, NULL, VIEW},
+        {"yaw", required_argument, NULL, YAW},
+        {"pitch", required_argument, NULL, PITCH},
+        {"zoom", required_argument, NULL, ZOOM},
+        {"pan-x", required_argument, NULL, PAN_X},
+        {"pan-y", required_argument, NULL, PAN_Y},
         {"crc", no_argument, NULL, CRC},
         {"stats", no_argument, NULL, STATS},
         {NULL, 0, NULL, 0},
@@ -188,10 +222,27 @@ static bool write_frame(const render_options *o, uint32_t frame, el_machine *mac
     return o->png == NULL || write_numbered_png(o->png, frame, machine);
 }
 
-static bool render_frames(const render_options *o, const el_subject *subject, el_machine *machine, outputs *out)
+/* A scene is played as a host would have a board play it. A mesh has its own shading and camera. */
+static bool prepare_player(const render_options *o, const el_subject *subject, el_player *player)
 {
+    el_inputs inputs = o->inputs;
+    if (subject->scene != NULL) {
+        inputs.shading = o->common.subject.shading;
+    } else if (el_inputs_move(&inputs)) {
+        el_report("--yaw, --pitch, --zoom, --pan-x and --pan-y go with a scene; a mesh has --eye and --look-at");
+        return false;
+    }
+    player->scene = subject->scene;
+    return el_inputs_give(&inputs, player);
+}
+
+static bool render_frames(const render_options *o, const el_subject *subject, el_player *player, el_machine *machine,
+                          outputs *out)
+{
+    machine->renderer.config.view = player->view;
     for (uint32_t frame = 0; frame < (uint32_t)o->common.frames; frame++) {
-        const el_status status = el_subject_play(subject, frame, &machine->renderer);
+        const el_status status = subject->scene != NULL ? el_player_play(player, &machine->renderer)
+                                                        : el_subject_play(subject, frame, &machine->renderer);
         if (status != EL_OK) {
             el_report("frame %u: %s", frame, el_machine_message(status));
             return false;
@@ -216,17 +267,18 @@ int el_command_render(int argc, char **argv)
         return EL_EXIT_BAD;
     }
     el_subject subject = {0};
+    el_player player = {0};
     el_machine machine = {0};
     outputs out = {0};
-    bool good =
-        el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common)) && open_outputs(&out, &o);
+    bool good = el_subject_open(&subject, &o.common.subject, el_common_options_aspect(&o.common)) &&
+                prepare_player(&o, &subject, &player) && open_outputs(&out, &o);
     if (good) {
         o.common.machine.background = el_subject_background(&subject);
         if (out.wire.stream != NULL) {
             el_wire_begin(&out.writer, out.wire.stream);
             o.common.machine.tap = el_wire_tap(&out.writer);
         }
-        good = el_machine_open(&machine, &o.common.machine) && render_frames(&o, &subject, &machine, &out);
+        good = el_machine_open(&machine, &o.common.machine) && render_frames(&o, &subject, &player, &machine, &out);
     }
     if (good) {
         good = commit(&out.png) && commit(&out.raw) && commit(&out.depth) && commit(&out.wire);

@@ -1,4 +1,4 @@
-/* stream: the product with a serial link, sending what a board would send. */
+/* stream: the product with a serial link, sending what a board would send; with --baud as fast as a board's UART would. */
 #include <signal.h>
 #include <stdio.h>
 #include <time.h>
@@ -21,7 +21,11 @@ typedef struct stream_options {
     link_kind link;
     long tcp_port;
     long baud; /* 0: as fast as the link goes */
+    long max_baud;
 } stream_options;
+
+/* The most that common USB adapters have, and a Pico's UART with ease. */
+enum { USUAL_MAX_BAUD = 3000000, LEAST_BAUD = 1200, MOST_BAUD = 100000000 };
 
 static volatile sig_atomic_t stopped;
 
@@ -33,10 +37,11 @@ static void stop(int signal_number)
 
 static bool parse(int argc, char **argv, stream_options *o)
 {
-    enum { BAUD = EL_OPTION_OWN, PTY, TCP, STDOUT };
+    enum { BAUD = EL_OPTION_OWN, MAX_BAUD, PTY, TCP, STDOUT };
     static const struct option options[] = {
         EL_COMMON_OPTIONS,
         {"baud", required_argument, NULL, BAUD},
+        {"max-baud", required_argument, NULL, MAX_BAUD},
         {"pty", no_argument, NULL, PTY},
         {"tcp", required_argument, NULL, TCP},
         {"stdout", no_argument, NULL, STDOUT},
@@ -51,7 +56,10 @@ static bool parse(int argc, char **argv, stream_options *o)
         bool good = true;
         switch (which) {
         case BAUD:
-            good = el_option_integer("--baud", optarg, 1200, 100000000, &o->baud);
+            good = el_option_integer("--baud", optarg, LEAST_BAUD, MOST_BAUD, &o->baud);
+            break;
+        case MAX_BAUD:
+            good = el_option_integer("--max-baud", optarg, LEAST_BAUD, MOST_BAUD, &o->max_baud);
             break;
         case PTY:
             o->link = LINK_PTY;
@@ -84,6 +92,17 @@ static bool parse(int argc, char **argv, stream_options *o)
     if (links != 1) {
         el_report("stream needs one of --pty, --tcp PORT and --stdout");
         return false;
+    }
+    if (o->max_baud != 0 && o->max_baud < o->baud) {
+        el_report("--max-baud %ld is below --baud %ld", o->max_baud, o->baud);
+        return false;
+    }
+    if (o->max_baud != 0 && o->baud == 0) {
+        el_report("--max-baud goes with --baud, the rate at the start");
+        return false;
+    }
+    if (o->baud != 0 && o->max_baud == 0) {
+        o->max_baud = o->baud < USUAL_MAX_BAUD ? USUAL_MAX_BAUD : o->baud;
     }
     return el_common_options_check(&o->common);
 }
@@ -144,8 +163,8 @@ static bool play(const stream_options *o, const el_subject *subject, el_player *
 
 static bool run(const stream_options *o, const el_subject *subject, el_posix_port *port)
 {
+    port->baud = (uint32_t)o->baud;
     const el_port link = el_posix_port_link(port);
-    port->bytes_per_s = (uint32_t)(o->baud / 10); /* a start bit, 8 bits, a stop bit */
 
     /* No board has pictures of this size. */
     static uint8_t memory[EL_STREAM_MEMORY_BYTES(EL_MAX_WIDTH, EL_MAX_HEIGHT) +
@@ -158,9 +177,14 @@ static bool run(const stream_options *o, const el_subject *subject, el_posix_por
         .target = "simulator",
         .firmware = "edgeline " EDGELINE_VERSION,
         .boot_id = (uint32_t)time(NULL) * 2654435761U ^ (uint32_t)getpid(),
+        .baud = (uint32_t)o->baud,
+        .max_baud = (uint32_t)o->max_baud,
         .one_way = o->link == LINK_STDOUT,
         .input = subject->scene != NULL ? el_player_input : NULL,
         .input_context = &player,
+        .scenes = subject->scene != NULL ? (uint8_t)el_scene_count() : 0,
+        .controls = subject->scene != NULL ? EL_PLAYER_CONTROLS : 0,
+        .views = subject->scene != NULL ? EL_PLAYER_VIEWS : 0,
         .segments = true,
         .memory = memory,
         .memory_bytes = sizeof memory,

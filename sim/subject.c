@@ -143,8 +143,8 @@ bool el_subject_open(el_subject *subject, const el_subject_options *options, dou
         return open_mesh(subject, options, aspect);
     }
     if (options->eye != NULL || options->look_at != NULL || options->fov != NULL || options->near != NULL ||
-        options->far != NULL || options->shading != NULL) {
-        el_report("--eye, --look-at, --fov, --near, --far and --shading go with --mesh; a scene has its own camera");
+        options->far != NULL) {
+        el_report("--eye, --look-at, --fov, --near and --far go with --mesh; a scene has its own camera");
         return false;
     }
     const char *const name = options->scene != NULL ? options->scene : "demo";

@@ -8,7 +8,7 @@
 #include "edgeline.h"
 #include "scene.h"
 
-/* The command line's wishes; NULL where there is none. */
+/* The command line's wishes; NULL where there is none. `shading` is a mesh's; who plays a scene sees to it himself. */
 typedef struct el_subject_options {
     const char *scene;
     const char *mesh;

@@ -12,11 +12,9 @@ const el_scene *el_scene_find(const char *name)
     return NULL;
 }
 
-el_status el_scene_play(const el_scene *scene, uint32_t frame, el_renderer *renderer)
+static inline el_status show(const el_scene *scene, uint32_t frame, const el_camera *camera, el_renderer *renderer)
 {
-    el_camera camera = {0};
-    scene->place_camera(frame, &camera);
-    el_status status = el_frame_begin(renderer, &camera);
+    el_status status = el_frame_begin(renderer, camera);
     if (status != EL_OK) {
         return status;
     }
@@ -27,4 +25,16 @@ el_status el_scene_play(const el_scene *scene, uint32_t frame, el_renderer *rend
         more = el_frame_next(renderer);
     } while (more > 0);
     return more < 0 ? (el_status)more : status;
+}
+
+el_status el_scene_play(const el_scene *scene, uint32_t frame, el_renderer *renderer)
+{
+    el_camera camera = {0};
+    scene->place_camera(frame, &camera);
+    return show(scene, frame, &camera, renderer);
+}
+
+el_status el_scene_show(const el_scene *scene, uint32_t frame, const el_camera *camera, el_renderer *renderer)
+{
+    return show(scene, frame, camera, renderer);
 }

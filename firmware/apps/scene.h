@@ -14,6 +14,9 @@ typedef struct el_scene {
     void (*place_camera)(uint32_t frame, el_camera *camera);
     /* Submits the scene; called once per pass. */
     el_status (*draw)(uint32_t frame, el_renderer *renderer);
+    /* How far before the camera lies what it is turned about (orbit.h), Q16 units, 1 to 2^30. Where that is 0 or this is
+     * NULL: el_orbit_focus_q16. */
+    uint32_t (*focus_q16)(uint32_t frame);
 } el_scene;
 
 /* The scenes of this program: the demo's, then the benchmark's (scene_list.c), unless it links a list of its own. */
@@ -25,5 +28,8 @@ const el_scene *el_scene_find(const char *name);
 
 /* Draws frame number `frame` of `scene`, all passes, and hands it to the renderer's sinks. EL_OK or an error. */
 el_status el_scene_play(const el_scene *scene, uint32_t frame, el_renderer *renderer);
+
+/* The same as `camera` sees it. */
+el_status el_scene_show(const el_scene *scene, uint32_t frame, const el_camera *camera, el_renderer *renderer);
 
 #endif

@@ -16,7 +16,8 @@ typedef struct el_board {
     const char *name;    /* as HELLO tells it */
     const el_bus *bus;   /* the display's wire; NULL where there is none */
     const el_port *port; /* the host's link; NULL where there is none */
-    uint32_t max_baud;   /* its highest rate, 0 where it has none */
+    uint32_t baud;       /* its rate at the start, 0 where it has none */
+    uint32_t max_baud;   /* its highest rate, the same */
     uint32_t boot_id;    /* another one after each start, as far as the chip can */
 } el_board;
 

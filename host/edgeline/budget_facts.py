@@ -9,17 +9,17 @@ EL_MAX_WIDTH = 2040
 EL_MESH_MAX_VERTICES = 65535
 EL_MIN_LIST_BYTES = 512
 EL_RUN_BYTES = 32
-EL_SPLIT_FULL_BYTES = 1000
+EL_SPLIT_FULL_BYTES = 986
 EL_SPLIT_MAX_GAP = 12
-EL_STREAM_WIRE_BYTES = 512
+EL_STREAM_WIRE_BYTES = 848
 EL_SUBPIXEL_BITS = 4
 EL_TEXTURED_TRIANGLE_BYTES = 32
 EL_TRIANGLE_BYTES = 24
 EL_VERTEX_BYTES = 10
 
 STRUCT_BYTES: dict[int, dict[str, int]] = {
-    32: {"el_renderer": 280, "el_tft": 52, "el_oled": 40, "el_stream": 1072},
-    64: {"el_renderer": 344, "el_tft": 88, "el_oled": 64, "el_stream": 1168},
+    32: {"el_renderer": 280, "el_tft": 52, "el_oled": 40, "el_stream": 1464},
+    64: {"el_renderer": 344, "el_tft": 88, "el_oled": 64, "el_stream": 1560},
 }
 """By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
 
@@ -126,7 +126,7 @@ def el_split_buffer_bytes(width: int) -> int:
 
 def el_split_line_max_bytes(width: int) -> int:
     """EL_SPLIT_LINE_MAX_BYTES of stream/split.h."""
-    return 2 * width + (width + 7) // 8
+    return 2 * width + (width + 5) // 6
 
 
 def el_ssd0323_memory_bytes(band_lines: int) -> int:

@@ -76,7 +76,9 @@ def test_a_mode_is_left_out(everything: Drawn, tmp_path: Path, left_out: tuple[s
             assert crc not in {other for _, other, _ in everything.values()}, "a picture of the background"
 
 
-@pytest.mark.parametrize("flags", [("-DEL_SMALL_CODE=1",), ("-Os",), ("-O2",)], ids=" ".join)
+@pytest.mark.parametrize(
+    "flags", [("-DEL_SMALL_CODE=1",), ("-Os",), ("-O2",), ("-O2", "-DEL_WITH_DEBUG_VIEWS=1")], ids=" ".join
+)
 def test_small_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
     assert _draw(tmp_path, *flags) == everything
 
@@ -100,6 +102,12 @@ def test_a_header_that_is_not_there_stops_the_compiler(tmp_path: Path) -> None:
     done = _compile(tmp_path, '-DEL_CONFIG_FILE="nowhere_config.h"')
     assert done.returncode != 0
     assert "nowhere_config.h" in done.stderr
+
+
+def test_debug_views_need_counters(tmp_path: Path) -> None:
+    done = _compile(tmp_path, "-DEL_WITH_DEBUG_VIEWS=1", "-DEL_WITH_STATS=0")
+    assert done.returncode != 0
+    assert "it needs EL_WITH_OVERDRAW and EL_WITH_STATS" in done.stderr
 
 
 def test_an_option_is_0_or_1(tmp_path: Path) -> None:

@@ -1,14 +1,18 @@
-/* The stream's codec 2 on the sequences of codec_sequences.h.
+/* The stream's codec 2 on the sequences of codec_sequences.h, beside its first design.
  *
  * First the encoder alone, every line sent, nothing skipped; what is measured is el_split_add and no more. One line per
  * frame, `bytes` being the packets' before COBS:
  *
  *     SEQUENCE FRAME crc CRC-OF-THE-PACKETS bytes BYTES packets N ns NANOSECONDS
  *
- * Then, where files can be kept, whole sessions: SEQUENCE.MODE is what a device puts on the wire. */
+ * Then, where there is memory enough, what the first design makes of the same frames, and whole sessions: the file
+ * SEQUENCE.MODE is what a device puts on the wire.
+ *
+ *     SEQUENCE first crc 00000000 split BYTES lines BYTES segments BYTES */
 #include <string.h>
 
 #include "base/crc32.h"
+#include "codec_first.h"
 #include "codec_sequences.h"
 #include "platform.h"
 #include "stream/sink.h"
@@ -29,7 +33,7 @@ typedef struct encoder {
 static void end_packet(encoder *e)
 {
     const el_split *const split = &e->split;
-    const size_t lags = split->lagging ? (split->lines + 7) / 8 : 0;
+    const size_t lags = split->lagging ? (split->lines + 7U) / 8 : 0;
     if (split->lines > 0) {
         e->packets++;
         e->bytes += EL_PACKET_OVERHEAD_BYTES + EL_STREAM_BAND_HEADER_BYTES + lags + split->token_count +
@@ -100,6 +104,55 @@ static bool measure(size_t sequence, uint32_t frame)
     print_item(" bytes ", e.bytes);
     print_item(" packets ", e.packets);
     print_item(" ns ", best_ns);
+    bench_print("\n");
+    return true;
+}
+
+/* --- The first design --------------------------------------------------------------------------------------------- */
+
+enum { PIXELS = CODEC_WIDTH * CODEC_HEIGHT };
+
+static void keep_begin(void *context, uint16_t width, uint16_t height)
+{
+    (void)context;
+    (void)width;
+    (void)height;
+}
+
+static void keep_rows(void *context, el_band *band, unsigned slot)
+{
+    uint16_t *const frame = context;
+    memcpy(frame + (size_t)band->y * band->width, band->pixels, sizeof frame[0] * band->lines * band->width);
+    el_band_release(band, slot);
+}
+
+static void keep_end(void *context, const el_stats *stats)
+{
+    (void)context;
+    (void)stats;
+}
+
+/* `frames` has room for two. */
+static bool measure_first(size_t sequence, uint16_t *frames)
+{
+    uint64_t whole = 0;
+    uint64_t lines = 0;
+    uint64_t segments = 0;
+    for (uint32_t i = 0; i < CODEC_FRAMES; i++) {
+        uint16_t *const frame = frames + i % 2 * PIXELS;
+        const uint16_t *const known = i > 0 ? frames + (i + 1) % 2 * PIXELS : NULL;
+        const el_sink sink = {.context = frame, .begin = keep_begin, .rows = keep_rows, .end = keep_end};
+        if (!codec_sequence_play(sequence, i, &sink)) {
+            return false;
+        }
+        whole += codec_first_bytes(frame, NULL, CODEC_WIDTH, 0);
+        lines += codec_first_bytes(frame, known, CODEC_WIDTH, 2 * i);
+        segments += codec_first_bytes(frame, known, EL_SPLIT_SEGMENT_PIXELS, 2 * i);
+    }
+    bench_print(codec_sequence_name(sequence));
+    print_item(" first crc 00000000 split ", whole / CODEC_FRAMES);
+    print_item(" lines ", lines / CODEC_FRAMES);
+    print_item(" segments ", segments / CODEC_FRAMES);
     bench_print("\n");
     return true;
 }
@@ -204,6 +257,7 @@ int bench_main(void)
         for (uint32_t frame = 0; frame < CODEC_FRAMES; frame += step) {
             good = measure(i, frame) && good;
         }
+        good = (wire == NULL || measure_first(i, (uint16_t *)(void *)wire)) && good;
         for (size_t k = 0; wire != NULL && k < sizeof modes / sizeof modes[0]; k++) {
             capture link = {.bytes = wire};
             good = run_session(i, &modes[k], &link) && good;

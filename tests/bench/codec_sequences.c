@@ -65,8 +65,9 @@ static el_status draw_solid(uint32_t frame, el_renderer *renderer)
     return el_solid_scene.draw(frame, renderer);
 }
 
-static const el_scene dithered = {"dithered", "the teapot, dithered", 0x10A3, teapot_camera, draw_dithered};
-static const el_scene small = {"small", "a small solid", 0, far_camera, draw_solid};
+static const el_scene dithered = {
+    .name = "dithered", .background = 0x10A3, .place_camera = teapot_camera, .draw = draw_dithered};
+static const el_scene small = {.name = "small", .place_camera = far_camera, .draw = draw_solid};
 
 /* --- Backdrops ---------------------------------------------------------------------------------------------------- */
 

@@ -16,7 +16,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from edgeline.session import Event, Frame, Log, Session
+from edgeline.events import Event, Frame, Log, SetRate
+from edgeline.session import Session
 from target_tools import BUILD, Image, missing, need_tool, only_one
 
 HARNESS = Path(__file__).parent / "rp2040"
@@ -83,6 +84,8 @@ class Pico:
         self.trace = folder / "wire.trace"
         self.now_ns = 0
         self.frame_ends = 0
+        self.baud = 115200
+        """The rate of the host's port."""
         command = ["node", str(HARNESS / "run.mjs"), str(image.uf2), "--modules", str(emulator())]
         command += ["--trace", str(self.trace), "--uart-speed", str(uart_speed), "--stdio"]
         begin, end = stack_of(image)
@@ -106,9 +109,8 @@ class Pico:
 
         With `until_frame` it ends with a picture, if one is complete before. While `hold_tx` the UART's line takes
         nothing. Raises BoardStopped."""
-        answer = self._ask(
-            {"ns": ns, "rx": base64.b64encode(rx).decode(), "hold_tx": hold_tx, "until_frame": until_frame}
-        )
+        host = {"rx": base64.b64encode(rx).decode(), "baud": self.baud}
+        answer = self._ask({"ns": ns, **host, "hold_tx": hold_tx, "until_frame": until_frame})
         if answer["fatal"]:
             raise BoardStopped("\n".join(self.report().texts))
         return base64.b64decode(answer["tx"])
@@ -149,9 +151,9 @@ class Pico:
 class Host:
     """The edgeline package's session on an emulated board."""
 
-    def __init__(self, pico: Pico) -> None:
+    def __init__(self, pico: Pico, session: Session | None = None) -> None:
         self.pico = pico
-        self.session = Session()
+        self.session = session or Session()
         self.logs: list[str] = []
 
     def step(self, ns: int = STEP_NS) -> list[Event]:
@@ -161,7 +163,11 @@ class Host:
             self.session.tick(self.pico.now_ns / 1e9)
         data = self.pico.step(ns, self.session.bytes_to_send())
         events = self.session.receive(data, self.pico.now_ns / 1e9)
-        self.logs += [event.text for event in events if isinstance(event, Log)]
+        for event in events:
+            if isinstance(event, Log):
+                self.logs.append(event.text)
+            elif isinstance(event, SetRate):
+                self.pico.baud = event.rate
         return events
 
     def next_frame(self, within_ms: int = 5000) -> Frame:

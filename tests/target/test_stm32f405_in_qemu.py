@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import qemu
 from qemu_demo import Demo, streaming
 from target_tools import Image, Simulator, assert_same_picture
 from unicorn_f405 import SIZE
@@ -31,4 +32,4 @@ def test_stream_shows_the_simulators_picture(scene: str, demo: Demo, simulator: 
 
 
 def test_qemu_has_nothing_to_complain_about(demo: Demo) -> None:
-    assert demo.board.said() == ""
+    assert set(demo.board.said().splitlines()) <= qemu.NO_CYCLE_COUNTER

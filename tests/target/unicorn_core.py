@@ -52,7 +52,8 @@ _EXCEPTION_EXIT = 8
 _PAINT = 0xA5
 _WFI = b"\x30\xbf"
 _CORE_REGISTERS = 0xE000E000
-_DEVICE_SPACES = ((0x40000000, 0x20000000), (_CORE_REGISTERS, 0x1000))
+_CYCLE_COUNTER = 0xE0001000
+_DEVICE_SPACES = ((0x40000000, 0x20000000), (_CYCLE_COUNTER, 0x1000), (_CORE_REGISTERS, 0x1000))
 _FRAME = struct.Struct("<8I")
 _FLOAT_FRAME = struct.Struct("<8Q2I")
 _FLOAT_REGISTERS = (*range(arm.UC_ARM_REG_D0, arm.UC_ARM_REG_D7 + 1), arm.UC_ARM_REG_FPSCR)
@@ -122,7 +123,7 @@ class CoreRegisters(Device):
         self._systick_control = 0
         self._systick_reload = 0
         self._systick_begin = 0
-        self._scratch = {0xD08: 0, 0xD14: 0x200, 0xD24: 0, 0xD28: 0, 0xD2C: 0, 0xD34: 0, 0xD38: 0, 0xD88: 0}
+        self._scratch = {0xD08: 0, 0xD14: 0x200, 0xD24: 0, 0xD28: 0, 0xD2C: 0, 0xD34: 0, 0xD38: 0, 0xD88: 0, 0xDFC: 0}
 
     def set_line(self, irq: int, level: bool) -> None:
         """A device's interrupt line: pending from when it rises, and again after its handler if it is still high."""
@@ -193,6 +194,33 @@ class CoreRegisters(Device):
             self.pending.add(SYSTICK_EXCEPTION)
 
 
+class CycleCounter(Device):
+    """CYCCNT of the data watchpoint and trace unit (C1.8), which counts once TRCENA of DEMCR and CYCCNTENA are set.
+    Here it counts asleep, too."""
+
+    name = "data watchpoint and trace unit"
+    base = _CYCLE_COUNTER
+    size = 0x1000
+
+    def __init__(self, core: CoreRegisters) -> None:
+        self._core = core
+        self._control = 0
+
+    def read(self, offset: int) -> int:
+        if offset == 0x00:
+            return self._control
+        if offset == 0x04:
+            return self.machine.now & 0xFFFFFFFF if self._control & 1 else 0
+        raise KeyError(offset)
+
+    def write(self, offset: int, value: int) -> None:
+        if offset != 0x00:
+            raise KeyError(offset)
+        if not self._core.read(0xDFC) >> 24 & 1:
+            raise TargetError("the DWT is set up before DEMCR.TRCENA has started it")
+        self._control = value
+
+
 @dataclass
 class Memory:
     """A region of the chip; `dma`: its DMA controllers reach it."""
@@ -220,7 +248,7 @@ class Machine:
         self.core_hz = core_hz
         self.core = CoreRegisters()
         self.memories = memories
-        self.devices: list[Device] = [self.core, *devices]
+        self.devices: list[Device] = [self.core, CycleCounter(self.core), *devices]
         self.clock_enabled: Callable[[str, int], bool] = lambda register, bit: True
         self._ps = 0
         self._asleep = False

@@ -12,8 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from edgeline.events import Event, Frame, SetRate
 from edgeline.protocol import Control
-from edgeline.session import Event, Frame, Session
+from edgeline.session import Session
 from unicorn_core import TargetError
 from unicorn_stm32 import Chip
 
@@ -126,6 +127,9 @@ class Host:
         if data:
             events += self.session.receive(data, now)
         self.chip.usart.feed(self.session.bytes_to_send())
+        for event in events:
+            if isinstance(event, SetRate):
+                self.chip.usart.baud = event.rate
         self.events += events
         self.frames += [event for event in events if isinstance(event, Frame)]
 

@@ -491,7 +491,8 @@ class Usart(Device):
 
     def __init__(self, rcc: Rcc, baud: int, has_pins: Callable[[], bool]) -> None:
         self._rcc = rcc
-        self._baud = baud
+        self.baud = baud
+        """The rate at the other end; another one is garbage, and an error here."""
         self._has_pins = has_pins
         self._registers = dict.fromkeys((0x08, 0x0C, 0x10, 0x14, 0x18), 0)
         self._shifting: int | None = None
@@ -518,7 +519,7 @@ class Usart(Device):
         return not self._input
 
     def _byte_cycles(self) -> int:
-        return 10 * self._rcc.core_hz // self._baud
+        return 10 * self._rcc.core_hz // self.baud
 
     def _check(self, direction: int) -> None:
         control = self._registers[0x0C]
@@ -527,8 +528,8 @@ class Usart(Device):
         if control & 0x9600 or self._registers[0x10] or self._registers[0x14]:
             raise TargetError("USART1 is not set up for 8 data bits, no parity, one stop bit")
         divider = self._registers[0x08]
-        if divider == 0 or abs(self._rcc.apb2_hz / divider / self._baud - 1) > 0.015:
-            raise TargetError(f"USART1 with divider {divider} of {self._rcc.apb2_hz} Hz is not at {self._baud} bit/s")
+        if divider < 16 or abs(self._rcc.apb2_hz / divider / self.baud - 1) > 0.015:
+            raise TargetError(f"USART1 with divider {divider} of {self._rcc.apb2_hz} Hz is not at {self.baud} bit/s")
         if not self._has_pins():
             raise TargetError("USART1 is used, but its pins are not its own")
 
@@ -556,6 +557,8 @@ class Usart(Device):
             else:
                 self._waiting = value & 0xFF
         elif offset in self._registers:
+            if offset == 0x08 and (self._shifting is not None or self._waiting is not None):
+                raise TargetError("USART1 gets another divider while a byte is on its way")
             self._registers[offset] = value
         elif offset != 0x00:
             raise KeyError(offset)

@@ -15,7 +15,8 @@ typedef struct test_device {
     uint16_t height;
     uint16_t band_lines;
     uint16_t pixels[DEVICE_MAX_WIDTH * DEVICE_MAX_HEIGHT]; /* the picture of the next frame */
-    uint8_t memory[EL_STREAM_MEMORY_BYTES(DEVICE_MAX_WIDTH, DEVICE_MAX_HEIGHT) + 2];
+    uint8_t memory[EL_STREAM_MEMORY_BYTES(DEVICE_MAX_WIDTH, DEVICE_MAX_HEIGHT) +
+                   EL_STREAM_SEGMENT_MEMORY_BYTES(DEVICE_MAX_WIDTH, DEVICE_MAX_HEIGHT) + 2];
     size_t memory_bytes;
     uint32_t inputs; /* in all */
     uint8_t control; /* of the last one */
@@ -40,9 +41,13 @@ static inline el_stream_config device_config(test_device *device, uint16_t width
                               .target = "pc1",
                               .firmware = "fw 2",
                               .boot_id = 0x01020304,
-                              .max_baud = 115200,
+                              .baud = 115200,
+                              .max_baud = 1000000,
                               .input = device_input,
                               .input_context = device,
+                              .scenes = 5,
+                              .controls = 0x3FFE,
+                              .views = 0x3F,
                               .memory = device->memory + 1, /* odd on purpose */
                               .memory_bytes = EL_STREAM_MEMORY_BYTES(width, height)};
 }

@@ -45,7 +45,7 @@ static void test_values_arrive_whole(void)
         {"02 78 56 34 12", EL_CONTROL_FRAME, 0x12345678},
         {"FF FF FF FF FF", 255, -1},
         {"80 00 00 00 80", 128, INT32_MIN},
-        {"00 FF FF FF 7F 99 98", 0, INT32_MAX}, /* a later version's, longer */
+        {"00 FF FF FF 7F 01 98", 0, INT32_MAX}, /* a later version's, longer */
     };
     for (uint32_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
         host_packet(&wire, EL_PACKET_INPUT, vectors[i].hex);
@@ -56,6 +56,57 @@ static void test_values_arrive_whole(void)
     el_stream_poll(&dev.stream);
     TEST_ASSERT_EQUAL_UINT32(5, dev.inputs);
     TEST_ASSERT_EQUAL_UINT32(1, dev.stream.damaged);
+}
+
+/* Numbers: what was missed, comes twice or too early is not taken; HELLO and FRAME_END tell how far the device is. */
+
+static uint8_t numbered(uint32_t number)
+{
+    const uint8_t body[6] = {EL_CONTROL_FRAME, (uint8_t)number, (uint8_t)(number >> 8), 0, 0, (uint8_t)number};
+    uint8_t packet[32];
+    const uint32_t before = dev.inputs;
+    host_bytes(&wire, packet, make_packet(EL_PACKET_INPUT, wire.host_seq++, body, sizeof body, packet));
+    el_stream_poll(&dev.stream);
+    return (uint8_t)(dev.inputs - before);
+}
+
+static void test_each_number_counts_once_and_in_its_turn(void)
+{
+    for (uint32_t next = 1; next <= 600; next++) { /* they wrap twice */
+        TEST_ASSERT_EQUAL_UINT8(0, numbered(next + 1));
+        TEST_ASSERT_EQUAL_UINT8(0, numbered(next + 3));
+        TEST_ASSERT_EQUAL_UINT8(1, numbered(next));
+        expect_input(next, EL_CONTROL_FRAME, (int32_t)next);
+        TEST_ASSERT_EQUAL_UINT8(0, numbered(next));
+        TEST_ASSERT_EQUAL_UINT8(0, numbered(next - 1));
+        wire.in_count = wire.in_read = 0;
+    }
+}
+
+static void test_hello_and_frame_end_tell_the_last_number(void)
+{
+    for (uint32_t number = 1; number <= 3; number++) {
+        TEST_ASSERT_EQUAL_UINT8(1, numbered(number));
+    }
+    host_packet(&wire, EL_PACKET_PING, "01 02");
+    host_packet(&wire, EL_PACKET_START, "00 02 00 00 03 00");
+    el_stream_poll(&dev.stream);
+    TEST_ASSERT_EQUAL_UINT32(1, draw());
+    TEST_ASSERT_EQUAL_UINT32(3, host.input_number);
+    TEST_ASSERT_EQUAL_UINT8(3, host.frame_end[22]);
+    host_packet(&wire, EL_PACKET_INPUT, "03 01 00 00 00"); /* a 1.1 host's has no number, and takes none */
+    el_stream_poll(&dev.stream);
+    expect_input(4, EL_CONTROL_PAUSE, 1);
+    TEST_ASSERT_EQUAL_UINT32(1, draw());
+    TEST_ASSERT_EQUAL_UINT8(3, host.frame_end[22]);
+}
+
+static void test_a_start_of_the_device_begins_with_number_0(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(1, numbered(1));
+    device_init(&dev, &wire, 16, 20, false);
+    TEST_ASSERT_EQUAL_UINT8(0, numbered(2));
+    TEST_ASSERT_EQUAL_UINT8(1, numbered(1));
 }
 
 static void test_a_program_without_input_says_so_and_ignores_it(void)
@@ -97,7 +148,7 @@ static void test_a_frame_that_was_chosen_before_the_input_is_not_sent(void)
 static void send_input(fake_link *link)
 {
     link->on_wait = NULL;
-    host_packet(link, EL_PACKET_INPUT, "03 01 00 00 00");
+    host_packet(link, EL_PACKET_INPUT, "03 01 00 00 00 01");
 }
 
 static void test_input_in_the_middle_of_a_frame_disturbs_nothing(void)
@@ -108,7 +159,9 @@ static void test_input_in_the_middle_of_a_frame_disturbs_nothing(void)
     wire.on_wait = send_input;
     TEST_ASSERT_EQUAL_UINT32(1, draw());
     expect_input(1, EL_CONTROL_PAUSE, 1);
+    TEST_ASSERT_EQUAL_UINT8(0, host.frame_end[22]); /* taken after that frame had begun */
     TEST_ASSERT_EQUAL_UINT32(1, draw());
+    TEST_ASSERT_EQUAL_UINT8(1, host.frame_end[22]);
     TEST_ASSERT_EQUAL_UINT32(0, host.damaged + host.gaps);
 }
 
@@ -116,6 +169,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_values_arrive_whole);
+    RUN_TEST(test_each_number_counts_once_and_in_its_turn);
+    RUN_TEST(test_hello_and_frame_end_tell_the_last_number);
+    RUN_TEST(test_a_start_of_the_device_begins_with_number_0);
     RUN_TEST(test_a_program_without_input_says_so_and_ignores_it);
     RUN_TEST(test_one_way_takes_no_input);
     RUN_TEST(test_a_frame_that_was_chosen_before_the_input_is_not_sent);

@@ -8,7 +8,8 @@ _Static_assert(EL_STREAM_MEMORY_BYTES(320, 240) == (EL_STREAM_WITH_SPLIT ? 3325 
 _Static_assert(EL_STREAM_RUNS_PACKET_BYTES(320) == 1024 && EL_STREAM_RUNS_PACKET_BYTES(502) == 1024,
                "short lines share a packet");
 _Static_assert(EL_STREAM_RUNS_PACKET_BYTES(504) == 14 + 2 * 504 + 4, "a long line has one of its own");
-_Static_assert(sizeof(el_stream) <= 900 + EL_STREAM_WITH_SPLIT * 360, "a session is small");
+_Static_assert(sizeof(el_stream) - EL_STREAM_WIRE_BYTES <= 560 + EL_STREAM_WITH_SPLIT * 360, "a session is small");
+_Static_assert(EL_STREAM_ROLL_WIRE_BYTES(320) <= 848, "the queue's usual size lets 320 pixels roll");
 
 static fake_link wire;
 static test_device dev;
@@ -33,13 +34,14 @@ static void expect_sent(const char *hex)
 }
 
 #define HELLO_3X3                                                                                                      \
-    "02 01 08 45 44 47 4C 01 02 03 02 03 02 01 01 01 05 2A 04 07 03 01 01 03 C2 01 12 04 03 02 01 03 70 63 31 04 66 "  \
-    "77 20 32 26 75 E6 8C 00"
+    "02 01 08 45 44 47 4C 01 02 03 02 03 02 01 01 01 05 1C 04 07 0F 01 04 40 42 0F 0E 04 03 02 01 03 70 63 31 "        \
+    "04 66 77 20 32 04 05 FE 3F 01 02 3F 01 03 C2 01 05 1D B2 A4 15 00"
 #define BAND_RUNS "03 03 01 01 01 01 04 03 01 04 04 81 02 80 01 03 F8 01 02 02 02 03 01 01 07 34 12 3D E1 53 02 00 "
 #define FRAME_END_0                                                                                                    \
-    "03 04 02 01 02 01 01 06 F0 FF FF F4 01 01 01 01 01 01 02 20 01 01 01 01 01 01 07 51 BD 63 F1 12 64 01 01 02 65 "  \
-    "01 01 02 66 01 01 02 67 01 01 02 68 01 01 02 69 01 01 02 6A 01 01 02 6B 01 01 02 6C 01 01 02 6D 01 01 02 6E 01 "  \
-    "01 02 6F 01 01 02 70 01 01 02 71 01 01 02 72 01 01 02 73 01 01 02 74 01 01 02 75 01 01 05 94 31 CD EF 00"
+    "03 04 02 01 02 01 01 06 F0 FF FF F4 01 01 01 01 01 01 02 20 01 01 01 01 02 07 07 B1 11 0E A3 12 64 01 01 "        \
+    "02 65 01 01 02 66 01 01 02 67 01 01 02 68 01 01 02 69 01 01 02 6A 01 01 02 6B 01 01 02 6C 01 01 02 6D 01 "        \
+    "01 02 6E 01 01 02 6F 01 01 02 70 01 01 02 71 01 01 02 72 01 01 02 73 01 01 02 74 01 01 02 75 01 01 03 24 "        \
+    "F4 01 05 E0 E2 C8 F0 00"
 #define BAND_RAW "04 03 03 01 01 01 02 03 01 01 01 02 F8 02 F8 03 F8 01 02 02 02 03 01 01 01 01 07 34 12 BF 69 F4 49 00"
 
 /* The first packet has a 00 in front of it. */
@@ -59,6 +61,20 @@ static void test_log(void)
     expect_sent("0C 09 01 67 72 C3 BC 6E B0 0F 1F 58 00");
 }
 
+/* The fourth packet: HELLO, and two LOG. */
+static void test_baud(void)
+{
+    device_init(&dev, &wire, 3, 3, false);
+    el_stream_poll(&dev.stream);
+    for (int i = 0; i < 2; i++) {
+        el_stream_log(&dev.stream, "x", 1);
+    }
+    host_packet(&wire, EL_PACKET_SET_BAUD, "00 10 0E 00");
+    wire.out_read = wire.out_count;
+    el_stream_poll(&dev.stream);
+    expect_sent("03 0C 03 03 10 0E 05 F6 95 05 03 00");
+}
+
 /* A frame of 3 x 3 pixels with both codecs, then one raw. The renderer takes 500 us, the stream no time. */
 static void test_band_and_frame_end(void)
 {
@@ -69,6 +85,7 @@ static void test_band_and_frame_end(void)
     el_stream_poll(&dev.stream);
     wire.out_read = wire.out_count;
     host_packet(&wire, EL_PACKET_START, "00 01 00 00 03 00");
+    dev.stream.input_number = 7;
     el_stats stats;
     for (uint32_t i = 0; i < EL_STATS_COUNT; i++) {
         ((uint32_t *)&stats)[i] = 100 + i;
@@ -98,7 +115,10 @@ static const vector from_host[] = {
     {"ACK", "04 05 05 07 06 01 4C AE 54 4B 00", EL_PACKET_ACK, "07 00 01"},
     {"KEY", "03 06 05 01 02 F0 05 73 2C C7 BB 00", EL_PACKET_KEY, "00 00 F0 00"},
     {"PING", "07 07 05 B7 70 F2 7E 00", EL_PACKET_PING, ""},
+    {"PING of 1.2", "09 07 05 01 02 23 75 4D 4D 00", EL_PACKET_PING, "01 02"},
     {"STOP", "07 08 05 78 6C 6A F9 00", EL_PACKET_STOP, ""},
+    {"INPUT", "04 0A 05 05 09 C0 FF FF C8 AE 10 59 38 00", EL_PACKET_INPUT, "05 00 C0 FF FF C8"},
+    {"SET_BAUD", "03 0B 05 03 10 0E 05 EE 50 40 91 00", EL_PACKET_SET_BAUD, "00 10 0E 00"},
 };
 
 enum { VECTORS = sizeof from_host / sizeof from_host[0] };
@@ -280,6 +300,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_hello);
     RUN_TEST(test_log);
+    RUN_TEST(test_baud);
     RUN_TEST(test_band_and_frame_end);
     RUN_TEST(test_reader_takes_each_vector);
     RUN_TEST(test_reader_refuses_every_flipped_bit);

@@ -1,7 +1,7 @@
 /* The session: who may be sent what, and a link that is full, slow, silent, noisy or gone. */
 #include "stream_device.h"
 
-enum { SECOND_US = 1000000 };
+enum { SECOND_US = 1000000, WIDTH = 32, FRAME_BYTES = 1400 /* on the wire, a little less */ };
 
 static fake_link wire;
 static test_device dev;
@@ -11,7 +11,7 @@ void setUp(void)
 {
     fake_link_init(&wire);
     memset(&host, 0, sizeof host);
-    device_init(&dev, &wire, 16, 20, false);
+    device_init(&dev, &wire, WIDTH, 20, false);
 }
 
 void tearDown(void)
@@ -35,7 +35,7 @@ static uint32_t draw(void)
 {
     static uint32_t seed = 5;
     uint32_t frames = host.frames;
-    for (uint32_t i = 0; i < 16 * 20; i++) {
+    for (uint32_t i = 0; i < WIDTH * 20; i++) {
         dev.pixels[i] = (uint16_t)random_u32(&seed);
     }
     device_draw(&dev);
@@ -55,7 +55,7 @@ static int init_error(el_stream_config config)
 static void test_init_checks_its_configuration(void)
 {
     static const char long_name[] = "12345678901234567890123456789012345678901234567890123456789012345";
-    el_stream_config good = device_config(&dev, 16, 20);
+    el_stream_config good = device_config(&dev, WIDTH, 20);
     el_stream_config bad = good;
     el_port port = dev.port;
 
@@ -98,9 +98,10 @@ static void test_hello_at_once_and_every_second(void)
         listen_and_poll();
         TEST_ASSERT_EQUAL_UINT32(1U + (uint32_t)ms / 1000, host.hellos);
     }
-    TEST_ASSERT_EQUAL_UINT32(16, host.width);
+    TEST_ASSERT_EQUAL_UINT32(WIDTH, host.width);
     TEST_ASSERT_EQUAL_UINT32(20, host.height);
-    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_SPLIT | EL_STREAM_PARTIAL | EL_STREAM_INPUT,
+    TEST_ASSERT_EQUAL_HEX32(EL_STREAM_RAW | EL_STREAM_RUNS | EL_STREAM_SPLIT | EL_STREAM_PARTIAL | EL_STREAM_INPUT |
+                                EL_STREAM_ROLL | EL_STREAM_SET_BAUD,
                             host.capabilities);
 }
 
@@ -147,14 +148,64 @@ static void test_waiting_with_a_full_port_never_blocks(void)
 
 static void test_start_that_cannot_be_met_is_refused_aloud(void)
 {
-    start("01 02 00 00 03 00");
+    start("02 02 00 00 03 00");
     TEST_ASSERT_EQUAL_UINT32(1, host.logs);
-    TEST_ASSERT_EQUAL_STRING("START refused: this device knows mode 0 (BLOCK) only", host.log);
+    TEST_ASSERT_EQUAL_STRING("START refused: this device knows modes 0 (BLOCK) and 1 (ROLL) only", host.log);
     start("00 02 00 00 08 00");
     TEST_ASSERT_EQUAL_UINT32(2, host.logs);
     TEST_ASSERT_EQUAL_STRING("START refused: it names no codec that this device sends", host.log);
     TEST_ASSERT_EQUAL_UINT32(0, draw());
     TEST_ASSERT_EQUAL_INT(EL_STREAM_WAITING, dev.stream.state);
+}
+
+/* --- Versions -------------------------------------------------------------------------------------------------- */
+
+static void expect_refusals(uint32_t logs, const char *log)
+{
+    listen_and_poll();
+    TEST_ASSERT_EQUAL_UINT32(logs, host.logs);
+    TEST_ASSERT_EQUAL_STRING(log, host.log);
+    TEST_ASSERT_EQUAL_INT(EL_STREAM_WAITING, dev.stream.state);
+}
+
+/* A host of another major version is told so, and gets HELLO, which tells it. */
+static void test_a_host_of_another_version_is_named_and_not_listened_to(void)
+{
+    static const struct {
+        const char *ping;
+        const char *log;
+    } hosts[] = {
+        {"00 09", "this device has version 1 of the wire and takes nothing from a host of version 0"},
+        {"02 00", "this device has version 1 of the wire and takes nothing from a host of version 2"},
+        {"0A", "this device has version 1 of the wire and takes nothing from a host of version 10"},
+        {"FF FF 01", "this device has version 1 of the wire and takes nothing from a host of version 255"},
+    };
+    listen_and_poll();
+    for (uint32_t i = 0; i < sizeof hosts / sizeof hosts[0]; i++) {
+        host_packet(&wire, EL_PACKET_PING, hosts[i].ping);
+        expect_refusals(i + 1, hosts[i].log);
+        TEST_ASSERT_EQUAL_UINT32(2 + i, host.hellos);
+        host_packet(&wire, EL_PACKET_INPUT, "01 03 00 00 00 01");
+        host_packet(&wire, EL_PACKET_START, "00 05 00 00 03 00");
+        host_packet(&wire, EL_PACKET_SET_BAUD, "00 C2 01 00");
+        TEST_ASSERT_EQUAL_UINT32(0, draw());
+        TEST_ASSERT_EQUAL_UINT32(0, dev.inputs + host.bauds);
+    }
+    host_packet(&wire, EL_PACKET_PING, "01 09"); /* another host, of a later minor version */
+    start("00 05 00 00 03 00");
+    TEST_ASSERT_EQUAL_UINT32(1, draw());
+}
+
+static void test_a_host_of_another_version_ends_the_stream(void)
+{
+    start("00 05 00 00 03 00");
+    TEST_ASSERT_EQUAL_UINT32(1, draw());
+    host_packet(&wire, EL_PACKET_PING, "02 00");
+    expect_refusals(1, "this device has version 1 of the wire and takes nothing from a host of version 2");
+    TEST_ASSERT_EQUAL_UINT32(0, draw());
+    host_packet(&wire, EL_PACKET_PING, ""); /* a 1.1 host */
+    start("00 05 00 00 03 00");
+    TEST_ASSERT_EQUAL_UINT32(1, draw());
 }
 
 /* --- Credits and rates ----------------------------------------------------------------------------------------- */
@@ -345,6 +396,10 @@ static void test_a_slow_link_delays_and_loses_nothing(void)
     wire.wait_us = EL_STREAM_BYTE_US;
     for (int i = 0; i < 5; i++) {
         TEST_ASSERT_EQUAL_UINT32(1, draw());
+        /* The clock moves while it waits for the link alone, which is no time of rendering, nor are those cycles. */
+        TEST_ASSERT_EQUAL_UINT32(0, get_u32(host.frame_end + 8));
+        TEST_ASSERT_GREATER_THAN_UINT32(0, get_u32(host.frame_end + 12));
+        TEST_ASSERT_EQUAL_UINT32(0, get_u32(host.frame_end + host.frame_end_bytes - 4));
     }
     TEST_ASSERT_EQUAL_UINT32(0, host.gaps);
 }
@@ -352,7 +407,7 @@ static void test_a_slow_link_delays_and_loses_nothing(void)
 /* The host takes nothing for a second in the middle of a frame, at every place of it. */
 static void test_a_full_link_ends_the_session_after_a_second(void)
 {
-    for (size_t room = 0; room < 760; room += 3) {
+    for (size_t room = 0; room < FRAME_BYTES; room += 7) {
         setUp();
         start("00 05 00 00 03 00");
         wire.room = room;
@@ -384,7 +439,7 @@ static void go_away(fake_link *link)
 
 static void test_a_gone_link_is_left_alone(void)
 {
-    for (room_until_gone = 0; room_until_gone < 760; room_until_gone += 5) {
+    for (room_until_gone = 0; room_until_gone < FRAME_BYTES; room_until_gone += 11) {
         setUp();
         start("00 05 00 00 03 00");
         wire.room = room_until_gone;
@@ -515,6 +570,8 @@ int main(void)
     RUN_TEST(test_nothing_but_hello_before_start);
     RUN_TEST(test_waiting_with_a_full_port_never_blocks);
     RUN_TEST(test_start_that_cannot_be_met_is_refused_aloud);
+    RUN_TEST(test_a_host_of_another_version_is_named_and_not_listened_to);
+    RUN_TEST(test_a_host_of_another_version_ends_the_stream);
     RUN_TEST(test_credits_are_frames);
     RUN_TEST(test_credits_stop_at_255);
     RUN_TEST(test_no_credits_and_silence_for_a_second_end_the_session);

@@ -1,5 +1,6 @@
 /* Codec 2: whatever goes in comes back from a decoder that follows WIRE.md token by token, within the packet's bounds, and
  * the bytes do not depend on the bands. */
+#include "plain_split.h"
 #include "seeded.h"
 #include "stream_device.h"
 
@@ -18,76 +19,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-/* --- A plain decoder ---------------------------------------------------------------------------------------------- */
-
-static const uint16_t run_length[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96, 128};
-static const uint16_t slant_length[] = {1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 24, 32, 64};
-static const int8_t classes[8][3] = {{0, 0, 0}, {-1, -1, 0},  {0, -1, 0}, {0, 1, 0},
-                                     {1, 1, 0}, {-1, -1, -1}, {1, 1, 1},  {-1, 0, 0}};
-
-static uint16_t pair_half(uint32_t class)
-{
-    return (uint16_t)(2048 * classes[class][0] + 32 * classes[class][1] + classes[class][2]);
-}
-
-static uint16_t delta_of(uint8_t token)
-{
-    const int green = token / 9 - 3;
-    const int q = green >= 0 ? green / 2 : -((1 - green) / 2);
-    return (uint16_t)(2048 * (token / 3 % 3 - 1 + q) + 32 * green + token % 3 - 1 + q);
-}
-
-/* Decodes one line over `row`, which holds the host's pixels; advances the token and the number of literals used. */
-static void decode_line(const el_split *split, uint32_t line, const uint16_t *above, uint16_t *row, uint32_t *token,
-                        uint32_t *used)
-{
-    const uint32_t width = split->width;
-    const uint32_t lag = (split->lags[line / 8] >> line % 8 & 1) != 0 ? 4 : 1;
-    uint32_t x = 0;
-    while (x < width) {
-        TEST_ASSERT_LESS_THAN_UINT32(split->token_count, *token);
-        const uint8_t t = split->tokens[(*token)++];
-        uint32_t count = 1;
-        uint16_t add[2] = {0, 0};
-        if (t < 63) {
-            add[0] = delta_of(t);
-        } else if (t < 127) {
-            count = 2;
-            add[0] = pair_half((t - 63U) / 8);
-            add[1] = pair_half((t - 63U) % 8);
-        } else if (t >= 175 && t < 217) {
-            const uint32_t i = (t - 175U) % 21;
-            count = i == 20 ? width : run_length[i];
-        } else if (t >= 217 && t < 243) {
-            count = slant_length[(t - 217U) % 13];
-        } else if (t >= 243 && t < 247) {
-            count = 64 * (t - 242U);
-        } else if (t == 247) {
-            count = width - x;
-        } else if (t >= 248) {
-            count = t - 247U;
-        }
-        TEST_ASSERT_LESS_OR_EQUAL_UINT32(width, x + count);
-        for (uint32_t i = 0; i < count; i++, x++) {
-            const uint8_t *const last = split->literals + 2 * split->literal_count;
-            if (t < 127 || (t >= 175 && t < 196)) {
-                const uint16_t left = x >= lag ? row[x - lag] : (uint16_t)(above != NULL ? above[x] : 0);
-                row[x] = (uint16_t)(left + add[i & 1]);
-            } else if (t < 175) {
-                TEST_ASSERT_LESS_THAN_UINT32(*used, t - 127U);
-                row[x] = (uint16_t)get_u16(last - 2 * (*used - (t - 127U)));
-            } else if (t < 243) {
-                const int32_t from = (int32_t)x + (t < 217 ? 0 : t < 230 ? -1 : 1);
-                TEST_ASSERT_NOT_NULL(above);
-                TEST_ASSERT_TRUE(from >= 0 && from < (int32_t)width);
-                row[x] = above[from];
-            } else if (t >= 248) {
-                row[x] = (uint16_t)get_u16(last - 2 * ++*used);
-            }
-        }
-    }
 }
 
 /* --- Lines of all kinds ------------------------------------------------------------------------------------------- */
@@ -126,11 +57,11 @@ static void paint(seeded *seed, uint32_t y, uint32_t width)
 
 static void check_packet(seeded *seed, uint32_t width)
 {
-    static uint8_t buffer[EL_SPLIT_BUFFER_BYTES(MAX_WIDTH) + 2];
+    static _Alignas(2) uint8_t buffer[EL_SPLIT_BUFFER_BYTES(MAX_WIDTH) + 4];
     static uint16_t host[MAX_LINES][MAX_WIDTH];
     static el_split split;
     memset(buffer, GUARD, sizeof buffer);
-    el_split_init(&split, buffer + 1, (uint16_t)width);
+    el_split_init(&split, buffer + 2, (uint16_t)width);
     const bool joined = any_below(seed, 2) != 0;
     uint32_t y = 1;
     paint(seed, 0, width); /* above the packet's first line */
@@ -150,15 +81,20 @@ static void check_packet(seeded *seed, uint32_t width)
         }
     }
     EXPECT(seed, split.joined == joined && split.lines == y - 1);
-    EXPECT(seed, buffer[0] == GUARD && buffer[1 + EL_SPLIT_BUFFER_BYTES(width)] == GUARD);
-    EXPECT(seed, split.literals + 2 * split.literal_count == buffer + 1 + EL_SPLIT_BUFFER_BYTES(width));
-    uint32_t token = 0;
-    uint32_t used = 0;
+    const uint8_t *const end = buffer + 2 + EL_SPLIT_BUFFER_BYTES(width);
+    EXPECT(seed, buffer[0] == GUARD && buffer[1] == GUARD && end[0] == GUARD && end[1] == GUARD);
+    EXPECT(seed, (const uint8_t *)(split.literals + split.literal_count) == end);
+    plain_split packet = {.tokens = split.tokens,
+                          .token_count = split.token_count,
+                          .literals = split.literals,
+                          .literal_count = split.literal_count,
+                          .lags = split.lags,
+                          .width = width};
     for (uint32_t line = 1; line < y; line++) {
-        decode_line(&split, line - 1, line > 1 ? host[line - 1] : joined ? lines[0] : NULL, host[line], &token, &used);
+        EXPECT(seed, plain_split_line(&packet, line > 1 ? host[line - 1] : joined ? lines[0] : NULL, host[line]));
         EXPECT(seed, memcmp(host[line], lines[line], 2 * width) == 0);
     }
-    EXPECT(seed, token == split.token_count && used == split.literal_count);
+    EXPECT(seed, plain_split_ends(&packet));
 }
 
 static void test_seeded_packets_come_back(void)
@@ -172,7 +108,7 @@ static void test_seeded_packets_come_back(void)
 /* Noise: nothing but literals, as many bytes as the bound says. */
 static void test_the_bound_is_met(void)
 {
-    static uint8_t buffer[EL_SPLIT_BUFFER_BYTES(320)];
+    static _Alignas(2) uint8_t buffer[EL_SPLIT_BUFFER_BYTES(320)];
     static el_split split;
     for (uint32_t x = 0; x < 320; x++) {
         lines[0][x] = (uint16_t)(x * 25717 + 777);

@@ -22,6 +22,19 @@ static void bench_camera(uint32_t frame, el_camera *camera)
     };
 }
 
+/* Of the middle of S1's sphere, and of S3's triangles and S4's, along the view. */
+static uint32_t s1_focus_q16(uint32_t frame)
+{
+    (void)frame;
+    return 39 * EL_UNIT_Q16 / 4;
+}
+
+static uint32_t cloud_focus_q16(uint32_t frame)
+{
+    (void)frame;
+    return 23 * EL_UNIT_Q16;
+}
+
 static el_status s1_draw(uint32_t frame, el_renderer *renderer)
 {
     static const el_material material = {.shading = EL_SHADE_GOURAUD};
@@ -76,10 +89,11 @@ static el_status s4_draw(uint32_t frame, el_renderer *renderer)
 }
 
 const el_scene el_bench_scenes[] = {
-    {"S1", "sphere of 1,024 triangles, Gouraud, depth", 0x0000, bench_camera, s1_draw},
-    {"S2", "room of 12 triangles, textured, full screen, depth", 0x0000, bench_camera, s2_draw},
-    {"S2-no-depth", "S2 without depth", 0x0000, bench_camera, s2_no_depth_draw},
-    {"S3", "4,000 small triangles, flat, depth", 0x0000, bench_camera, s3_draw},
-    {"S4", "4,000 triangles of which 403 are on the screen, flat, depth", 0x0000, bench_camera, s4_draw},
+    {"S1", "sphere of 1,024 triangles, Gouraud, depth", 0x0000, bench_camera, s1_draw, s1_focus_q16},
+    {"S2", "room of 12 triangles, textured, full screen, depth", 0x0000, bench_camera, s2_draw, NULL},
+    {"S2-no-depth", "S2 without depth", 0x0000, bench_camera, s2_no_depth_draw, NULL},
+    {"S3", "4,000 small triangles, flat, depth", 0x0000, bench_camera, s3_draw, cloud_focus_q16},
+    {"S4", "4,000 triangles of which 403 are on the screen, flat, depth", 0x0000, bench_camera, s4_draw,
+     cloud_focus_q16},
 };
 const size_t el_bench_scene_count = sizeof el_bench_scenes / sizeof el_bench_scenes[0];

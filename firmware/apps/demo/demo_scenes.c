@@ -1,5 +1,6 @@
 #include "demo/demo_scenes.h"
 
+#include "base/fixed.h"
 #include "demo/meshes/field.h"
 #include "demo/meshes/room.h"
 #include "demo/meshes/solid.h"
@@ -67,15 +68,34 @@ static void walk_at(el_angle angle, int32_t position_q16[3])
     position_q16[2] = scale_q16(TENTHS_Q16(34), el_sin_q30(angle));
 }
 
-static void room_camera(uint32_t frame, el_camera *camera)
+static void look_at(uint32_t frame, int32_t eye_q16[3], int32_t target_q16[3])
 {
     const el_angle angle = frame * TURN_IN(240) + EL_DEGREES(10, 1);
-    int32_t eye_q16[3];
-    int32_t target_q16[3];
     walk_at(angle, eye_q16);
     walk_at(angle + EL_DEGREES(18, 1), target_q16);
+}
+
+static void room_camera(uint32_t frame, el_camera *camera)
+{
+    int32_t eye_q16[3];
+    int32_t target_q16[3];
+    look_at(frame, eye_q16, target_q16);
     perspective(camera, EL_DEGREES(65, 1), TENTHS_Q16(1), TENTHS_Q16(200));
     (void)el_camera_look_at(camera, eye_q16, target_q16, up_q16);
+}
+
+/* The walk turns about what it looks at. */
+static uint32_t room_focus_q16(uint32_t frame)
+{
+    int32_t eye_q16[3];
+    int32_t target_q16[3];
+    uint64_t square_q32 = 0;
+    look_at(frame, eye_q16, target_q16);
+    for (unsigned i = 0; i < 3; i++) {
+        const int64_t difference_q16 = (int64_t)target_q16[i] - eye_q16[i]; /* within 10 units */
+        square_q32 += (uint64_t)(difference_q16 * difference_q16);
+    }
+    return el_sqrt_u64(square_q32);
 }
 
 static el_status room_draw(uint32_t frame, el_renderer *renderer)
@@ -122,11 +142,14 @@ static el_status field_draw(uint32_t frame, el_renderer *renderer)
 #define NAVY 0x10A3
 #define SKY 0x7DDD
 
-const el_scene el_teapot_scene = {"teapot", "Newell's teapot, lit, Gouraud-shaded", NAVY, teapot_camera, teapot_draw};
-const el_scene el_room_scene = {"room", "two textured rooms to walk through", 0, room_camera, room_draw};
-const el_scene el_solid_scene = {"solid", "a truncated icosahedron, one colour per face", NAVY, solid_camera,
-                                 solid_draw};
-const el_scene el_field_scene = {"field", "an island of 2,592 small flat triangles", SKY, field_camera, field_draw};
+const el_scene el_teapot_scene = {"teapot", "Newell's teapot, lit, Gouraud-shaded", NAVY, teapot_camera, teapot_draw,
+                                  NULL};
+const el_scene el_room_scene = {"room",        "two textured rooms to walk through", 0, room_camera, room_draw,
+                                room_focus_q16};
+const el_scene el_solid_scene = {
+    "solid", "a truncated icosahedron, one colour per face", NAVY, solid_camera, solid_draw, NULL};
+const el_scene el_field_scene = {"field", "an island of 2,592 small flat triangles", SKY, field_camera, field_draw,
+                                 NULL};
 
 /* The demo proper: a part of each of the scenes above, one after the other, each from where it stopped. */
 static const el_scene *const parts[] = {&el_teapot_scene, &el_room_scene, &el_solid_scene, &el_field_scene};
@@ -152,7 +175,14 @@ static el_status demo_draw(uint32_t frame, el_renderer *renderer)
     return part_of(frame)->draw(part_frame(frame), renderer);
 }
 
-static const el_scene demo = {"demo", "all of the following in turn, 30 frames each", NAVY, demo_camera, demo_draw};
+static uint32_t demo_focus_q16(uint32_t frame)
+{
+    const el_scene *const part = part_of(frame);
+    return part->focus_q16 != NULL ? part->focus_q16(part_frame(frame)) : 0;
+}
+
+static const el_scene demo = {
+    "demo", "all of the following in turn, 30 frames each", NAVY, demo_camera, demo_draw, demo_focus_q16};
 
 const el_scene *const el_demo_scenes[] = {&demo, &el_teapot_scene, &el_room_scene, &el_solid_scene, &el_field_scene};
 const size_t el_demo_scene_count = sizeof el_demo_scenes / sizeof el_demo_scenes[0];

@@ -49,16 +49,22 @@ int main(void)
     player.scene = el_scene_find(EL_DEMO_SCENE);
 
     static el_stream stream;
-    const size_t stream_bytes = EL_STREAM_MEMORY_BYTES(panel.width, panel.height);
+    const size_t stream_bytes = EL_STREAM_MEMORY_BYTES(panel.width, panel.height) +
+                                (EL_STREAM_WITH_SPLIT ? EL_STREAM_SEGMENT_MEMORY_BYTES(panel.width, panel.height) : 0);
     const el_stream_config stream_config = {.port = &link,
                                             .width = panel.width,
                                             .height = panel.height,
                                             .target = board->name,
                                             .firmware = el_firmware_name,
                                             .boot_id = board->boot_id,
+                                            .baud = board->baud,
                                             .max_baud = board->max_baud,
                                             .input = el_player_input,
                                             .input_context = &player,
+                                            .scenes = (uint8_t)el_scene_count(),
+                                            .controls = EL_PLAYER_CONTROLS,
+                                            .views = EL_PLAYER_VIEWS,
+                                            .segments = EL_STREAM_WITH_SPLIT,
                                             .memory = memory,
                                             .memory_bytes = stream_bytes};
     must(el_stream_init(&stream, &stream_config), "el_stream_init");

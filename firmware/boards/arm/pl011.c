@@ -63,16 +63,46 @@ int32_t el_pl011_read(void *context, uint8_t *bytes, size_t capacity)
     return (int32_t)el_ring_take(&uart->rx, bytes, capacity);
 }
 
-void el_pl011_start(el_pl011 *uart, uint32_t clock_hz, uint32_t baud)
+/* 64ths of clock / (16 * rate), to nearest; 32 bits hold it up to 536 MHz. 1 to 65535 are what the registers take. */
+static uint32_t find_divider_q6(const el_pl011 *uart, uint32_t rate)
 {
-    /* 64ths of clock / (16 * baud), to nearest; 32 bits hold it up to 536 MHz */
-    const uint32_t divider_q6 = (8U * clock_hz / baud + 1U) / 2U;
+    enum { LEAST_Q6 = 64, MOST_Q6 = 65535 * 64 };
+    const uint32_t nearest = (8U * uart->clock_hz / rate + 1U) / 2U;
+    return nearest < LEAST_Q6 ? LEAST_Q6 : nearest > MOST_Q6 ? MOST_Q6 : nearest;
+}
+
+/* The order is the manual's: off, the divider, and the write of LCR_H that puts it in force (3.3.5 to 3.3.8). */
+static void set_up(el_pl011 *uart, uint32_t rate)
+{
+    const uint32_t divider_q6 = find_divider_q6(uart, rate);
     uart->registers->cr = 0;
     uart->registers->ibrd = divider_q6 >> 6;
     uart->registers->fbrd = divider_q6 & 63U;
     uart->registers->lcr_h = LCR_H_8_BITS | LCR_H_FIFOS;
     uart->registers->cr = CR_ENABLE | CR_TXE | CR_RXE;
+}
+
+void el_pl011_start(el_pl011 *uart, uint32_t clock_hz, uint32_t baud)
+{
+    uart->clock_hz = clock_hz;
+    set_up(uart, baud);
     uart->registers->imsc = INT_RX | INT_RX_TIMEOUT;
+}
+
+uint32_t el_pl011_find_baud(void *context, uint32_t rate)
+{
+    const el_pl011 *uart = context;
+    return 4U * uart->clock_hz / find_divider_q6(uart, rate);
+}
+
+bool el_pl011_set_baud(void *context, uint32_t rate)
+{
+    el_pl011 *uart = context;
+    if (el_ring_used(&uart->tx) != 0 || (uart->registers->fr & FR_BUSY) != 0) {
+        return false;
+    }
+    set_up(uart, rate);
+    return true;
 }
 
 void el_pl011_panic_write(const el_pl011 *uart, const uint8_t *bytes, size_t count)

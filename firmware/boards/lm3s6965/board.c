@@ -1,6 +1,7 @@
 /* The board as a whole: clocks, watchdog, interrupt vectors. */
 #include "lm3s6965.h"
 
+#include "cortex_m/cycles.h"
 #include "cortex_m/start.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
@@ -50,7 +51,8 @@ const el_board *el_board_start(void)
     static el_board board = {.name = "LM3S6965 evaluation board",
                              .bus = &el_lm3s6965_bus,
                              .port = &el_lm3s6965_port,
-                             .max_baud = EL_LM3S6965_BAUD};
+                             .baud = EL_LM3S6965_BAUD,
+                             .max_baud = EL_LM3S6965_MAX_BAUD};
     const uint32_t clock_hz = start_clock();
     SYSCTL_RCGC0 |= RCGC0_WATCHDOG;
     SYSCTL_RCGC1 |= RCGC1_UART0 | RCGC1_SSI0;
@@ -58,6 +60,7 @@ const el_board *el_board_start(void)
     (void)SYSCTL_RCGC2; /* a part may be touched three clocks after it got its own */
     (void)SYSCTL_RCGC2;
     el_systick_start(clock_hz);
+    el_cycles_start();
     el_lm3s6965_uart_start(clock_hz);
     el_lm3s6965_display_start();
     start_watchdog(clock_hz);

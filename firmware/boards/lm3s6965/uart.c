@@ -3,6 +3,7 @@
 
 #include "arm/pl011.h"
 #include "cortex_m/core.h"
+#include "cortex_m/cycles.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
 
@@ -26,7 +27,10 @@ const el_port el_lm3s6965_port = {.context = &uart,
                                   .write = el_pl011_write,
                                   .read = el_pl011_read,
                                   .micros = el_systick_micros,
-                                  .wait = el_systick_wait};
+                                  .wait = el_systick_wait,
+                                  .cycles = el_cycles,
+                                  .find_baud = el_pl011_find_baud,
+                                  .set_baud = el_pl011_set_baud};
 
 void el_board_panic_write(const uint8_t *bytes, size_t count)
 {

@@ -6,8 +6,11 @@
 
 const el_board *el_board_start(void)
 {
-    static el_board board = {
-        .name = "QEMU RISC-V virt", .bus = &el_virt_wire, .port = &el_virt_uart, .max_baud = 115200};
+    static el_board board = {.name = "QEMU RISC-V virt",
+                             .bus = &el_virt_wire,
+                             .port = &el_virt_uart,
+                             .baud = EL_VIRT_BAUD,
+                             .max_baud = EL_VIRT_MAX_BAUD};
     board.boot_id = RTC_LOW;
     el_virt_uart_start();
     el_virt_wire_start();

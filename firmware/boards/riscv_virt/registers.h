@@ -25,9 +25,12 @@ enum { MTIME_HZ = 10000000 };
 #define PLIC_CLAIM EL_REGISTER(0x0C200004) /* read: the source, 0 for none; written: it has been served */
 enum { PLIC_SOURCE_UART = 10 };
 
-/* UART (16550 8.0, table II): DLAB is 0 from reset on, and the machine's UART has no rate that matters. */
+/* UART (16550 8.0, table II). DLAB in the line register, 0 from reset on, makes the first two the rate's divider. The
+ * machine takes it and sends as fast as it can. */
 #define UART_DATA EL_REGISTER_8(0x10000000)
 #define UART_INTERRUPTS EL_REGISTER_8(0x10000001)
+#define UART_DIVIDER_LOW EL_REGISTER_8(0x10000000)
+#define UART_DIVIDER_HIGH EL_REGISTER_8(0x10000001)
 #define UART_FIFO EL_REGISTER_8(0x10000002)
 #define UART_LINE EL_REGISTER_8(0x10000003)
 #define UART_MODEM EL_REGISTER_8(0x10000004)
@@ -37,6 +40,8 @@ enum {
     UART_INTERRUPTS_EMPTY = 1 << 1, /* the transmit FIFO has become empty, or is when this bit is set */
     UART_FIFO_ON_AND_CLEARED = 7,
     UART_LINE_8N1 = 3,
+    UART_LINE_DLAB = 1 << 7,
+    UART_CLOCK_HZ = 3686400, /* as the device tree says; 16 for each bit */
     UART_MODEM_DTR_RTS = 3,
     UART_STATUS_RECEIVED = 1 << 0,
     UART_STATUS_EMPTY = 1 << 5, /* the transmit FIFO is */

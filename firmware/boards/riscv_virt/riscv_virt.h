@@ -28,6 +28,7 @@ int32_t el_virt_semihost(uint32_t operation, const void *parameters);
 
 /* uart.c */
 extern const el_port el_virt_uart;
+enum { EL_VIRT_BAUD = 115200, EL_VIRT_MAX_BAUD = 230400 }; /* at the start; all of its clock */
 void el_virt_uart_start(void);
 void el_virt_uart_interrupt(void);
 

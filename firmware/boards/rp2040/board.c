@@ -49,11 +49,11 @@ static const char *name_at(uint32_t clock_hz)
 
 const el_board *el_board_start(void)
 {
-    static el_board board = {.max_baud = EL_PICO_BAUD};
+    static el_board board = {.baud = EL_PICO_BAUD, .max_baud = EL_PICO_MAX_BAUD};
     const uint32_t clock_hz = el_pico_clocks_start();
     el_pico_release(EL_RESET_IO_BANK0 | EL_RESET_PADS_BANK0 | EL_RESET_TIMER | EL_RESET_DMA | EL_RESET_SPI0 |
                     EL_RESET_UART0);
-    el_pico_timer_start();
+    el_pico_timer_start(clock_hz);
     board.name = name_at(clock_hz);
     board.bus = el_pico_display_start();
     board.port = el_pico_link_start(clock_hz);

@@ -31,8 +31,13 @@ void el_board_panic_write(const uint8_t *bytes, size_t count)
 
 const el_port *el_pico_link_start(uint32_t clock_hz)
 {
-    static const el_port port = {
-        .context = &uart, .write = el_pl011_write, .read = el_pl011_read, .micros = el_pico_micros};
+    static const el_port port = {.context = &uart,
+                                 .write = el_pl011_write,
+                                 .read = el_pl011_read,
+                                 .micros = el_pico_micros,
+                                 .cycles = el_pico_cycles,
+                                 .find_baud = el_pl011_find_baud,
+                                 .set_baud = el_pl011_set_baud};
     el_pl011_start(&uart, clock_hz, EL_PICO_BAUD);
     /* An input that nobody drives must read as an idle line. */
     *EL_PAD(EL_PIN_UART_RX) = EL_PAD_INPUT | EL_PAD_4_MA | EL_PAD_PULL_UP | EL_PAD_SCHMITT;

@@ -7,11 +7,17 @@
 #include "rp2040/registers.h"
 
 static volatile bool waiting;
+static uint32_t cycles_per_us;
 
 uint32_t el_pico_micros(void *context)
 {
     (void)context;
     return EL_TIMER->timerawl;
+}
+
+uint32_t el_pico_cycles(void *context)
+{
+    return el_pico_micros(context) * cycles_per_us;
 }
 
 void el_pico_timer_interrupt(void)
@@ -31,8 +37,9 @@ void el_pico_delay_ms(void *context, uint32_t ms)
     }
 }
 
-void el_pico_timer_start(void)
+void el_pico_timer_start(uint32_t clock_hz)
 {
+    cycles_per_us = clock_hz / 1000000U;
     EL_TIMER->inte = 1U << 0;
     el_core_enable_interrupt(EL_IRQ_TIMER_0);
 }

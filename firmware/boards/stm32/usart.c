@@ -4,6 +4,7 @@
 
 #include "board.h"
 #include "cortex_m/core.h"
+#include "cortex_m/cycles.h"
 #include "cortex_m/systick.h"
 
 enum {
@@ -50,13 +51,44 @@ static int32_t read(void *context, uint8_t *bytes, size_t capacity)
     return (int32_t)el_ring_take(&el_stm32_usart1.rx, bytes, capacity);
 }
 
-const el_port el_stm32_usart1_port = {
-    .write = write, .read = read, .micros = el_systick_micros, .wait = el_systick_wait};
+/* Of its clock; with oversampling by 16 that is the rate's divider in sixteenths, and 16 the least (RM0090, 30.3.4). */
+static uint32_t clocks_per_bit(uint32_t rate)
+{
+    enum { LEAST = 16, MOST = 65535 };
+    const uint32_t nearest = (el_stm32_usart1.clock_hz + rate / 2U) / rate;
+    return nearest < LEAST ? LEAST : nearest > MOST ? MOST : nearest;
+}
+
+static uint32_t find_baud(void *context, uint32_t rate)
+{
+    (void)context;
+    return el_stm32_usart1.clock_hz / clocks_per_bit(rate);
+}
+
+static bool set_baud(void *context, uint32_t rate)
+{
+    (void)context;
+    el_stm32_usart_registers *registers = el_stm32_usart1.registers;
+    if (el_ring_used(&el_stm32_usart1.tx) != 0 || (registers->sr & SR_TX_COMPLETE) == 0) {
+        return false;
+    }
+    registers->brr = clocks_per_bit(rate);
+    return true;
+}
+
+const el_port el_stm32_usart1_port = {.write = write,
+                                      .read = read,
+                                      .micros = el_systick_micros,
+                                      .wait = el_systick_wait,
+                                      .cycles = el_cycles,
+                                      .find_baud = find_baud,
+                                      .set_baud = set_baud};
 
 void el_stm32_usart1_start(uint32_t clock_hz, uint32_t baud)
 {
     el_stm32_usart_registers *registers = el_stm32_usart1.registers;
-    registers->brr = (clock_hz + baud / 2U) / baud; /* with oversampling by 16: 16ths of the divider */
+    el_stm32_usart1.clock_hz = clock_hz;
+    registers->brr = clocks_per_bit(baud);
     registers->cr1 = CONTROL;
     el_core_enable_interrupt(el_stm32_usart1.interrupt);
 }

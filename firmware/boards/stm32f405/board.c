@@ -1,6 +1,7 @@
 /* The board as a whole: clocks, watchdog, interrupt vectors. */
 #include "board.h"
 
+#include "cortex_m/cycles.h"
 #include "cortex_m/start.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
@@ -43,14 +44,18 @@ static void start_watchdog(void)
 
 const el_board *el_board_start(void)
 {
-    static el_board board = {
-        .name = "STM32F405", .bus = &el_stm32f405_bus, .port = &el_stm32_usart1_port, .max_baud = EL_STM32F405_BAUD};
+    static el_board board = {.name = "STM32F405",
+                             .bus = &el_stm32f405_bus,
+                             .port = &el_stm32_usart1_port,
+                             .baud = EL_STM32F405_BAUD,
+                             .max_baud = EL_STM32F405_MAX_BAUD};
     const el_stm32f405_clocks clocks = el_stm32f405_clocks_start();
     RCC_AHB1ENR |= RCC_AHB1ENR_GPIOA | RCC_AHB1ENR_DMA2;
     RCC_AHB2ENR |= RCC_AHB2ENR_RNG;
     RCC_APB2ENR |= RCC_APB2ENR_USART1 | RCC_APB2ENR_SPI1;
     (void)RCC_APB2ENR; /* a part may be touched two clocks after it got its own (RM0090, 7.2) */
     el_systick_start(clocks.core_hz);
+    el_cycles_start();
     el_stm32f405_usart_start(clocks.apb2_hz);
     el_stm32f405_display_start();
     start_watchdog();

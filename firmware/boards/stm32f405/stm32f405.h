@@ -14,7 +14,8 @@ typedef struct el_stm32f405_clocks {
 
 el_stm32f405_clocks el_stm32f405_clocks_start(void);
 
-enum { EL_STM32F405_BAUD = EDGELINE_BAUD };
+/* At the start; and the highest: an interrupt for each byte, 840 cycles apart. */
+enum { EL_STM32F405_BAUD = EDGELINE_BAUD, EL_STM32F405_MAX_BAUD = EDGELINE_BAUD > 2000000 ? EDGELINE_BAUD : 2000000 };
 
 void el_stm32f405_usart_start(uint32_t clock_hz);
 

@@ -1,6 +1,7 @@
 /* The board as a whole: clocks, watchdog, interrupt vectors. */
 #include "stm32vldiscovery.h"
 
+#include "cortex_m/cycles.h"
 #include "cortex_m/start.h"
 #include "cortex_m/systick.h"
 #include "registers.h"
@@ -53,11 +54,13 @@ const el_board *el_board_start(void)
     static el_board board = {.name = "STM32 VL Discovery",
                              .bus = &el_vldiscovery_bus,
                              .port = &el_stm32_usart1_port,
-                             .max_baud = EL_VLDISCOVERY_BAUD};
+                             .baud = EL_VLDISCOVERY_BAUD,
+                             .max_baud = EL_VLDISCOVERY_MAX_BAUD};
     start_clock();
     RCC_APB2ENR |= RCC_APB2ENR_PORT_A | RCC_APB2ENR_SPI1 | RCC_APB2ENR_USART1;
     (void)RCC_APB2ENR; /* a part may be touched two clocks after it got its own */
     el_systick_start(EL_VLDISCOVERY_HZ);
+    el_cycles_start();
     el_vldiscovery_uart_start();
     el_vldiscovery_display_start();
     start_watchdog();

@@ -19,7 +19,8 @@
 
 #include "board.h"
 
-enum { EL_VLDISCOVERY_HZ = 24000000, EL_VLDISCOVERY_BAUD = 115200 };
+/* The link's rate at the start, and the highest: an interrupt for each byte, 520 cycles apart. */
+enum { EL_VLDISCOVERY_HZ = 24000000, EL_VLDISCOVERY_BAUD = 115200, EL_VLDISCOVERY_MAX_BAUD = 460800 };
 
 void el_vldiscovery_display_start(void);
 extern const el_bus el_vldiscovery_bus;

@@ -8,7 +8,7 @@ enum { TX_PIN = 9, RX_PIN = 10 }; /* of port A */
 
 enum {
     TX_BYTES = 128,      /* a whole HELLO: a stream that waits for a host pushes only what is taken at once */
-    RX_BYTES = 128,      /* the most that a host says at once: PING, START and three INPUT have 71 bytes */
+    RX_BYTES = 128,      /* the most that a host says at once: PING, START and four INPUT have 80 bytes */
     PANIC_POLLS = 500000 /* of 5 cycles and more at 24 MHz: 104 ms */
 };
 

@@ -51,10 +51,19 @@
 #define EL_WITH_CARRY 1
 #endif
 
+/* The debug views, and shadings that are left out at run time (el_config.view, .shading_off): 0 by default. Without:
+ * el_init refuses them with EL_ERROR_SIZE, and no frame pays for them. */
+#ifndef EL_WITH_DEBUG_VIEWS
+#define EL_WITH_DEBUG_VIEWS 0
+#endif
+
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
-     EL_WITH_STATS | EL_WITH_CARRY) &                                                                                  \
+     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_DEBUG_VIEWS) &                                                            \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
+#endif
+#if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
+#error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"
 #endif
 
 /* 1: of two ways to the same pixels the shorter code, as -Os asks for; 0: the faster. */

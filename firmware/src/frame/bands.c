@@ -4,6 +4,7 @@
 
 #include "base/fill.h"
 #include "base/fixed.h"
+#include "frame/debug_hooks.h"
 
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
  * has left of its memory, and their records form one list in the order of submission. Where there is no room for a
@@ -59,7 +60,7 @@ static el_target open_band(el_renderer *renderer, uint16_t band)
         buffer->y = (uint16_t)y;
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
-        el_fill_u16(buffer->pixels, config->background, pixels);
+        el_fill_u16(buffer->pixels, el_debug_begin_band(renderer), pixels);
         el_fill_u16(renderer->depth, 0xFFFF, pixels);
         renderer->band_is_open = 1;
     }
@@ -70,6 +71,7 @@ static el_target open_band(el_renderer *renderer, uint16_t band)
 static void hand_over(el_renderer *renderer)
 {
     el_band *const band = &renderer->bands[renderer->current];
+    el_debug_finish_band(renderer, band);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         band->held[i] = renderer->config.sinks[i] != NULL;
     }
@@ -100,6 +102,7 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
         el_surface surface;
         el_list_gather(list, record, corners, &surface);
         surface.uv_error_log2 = renderer->config.uv_error_log2;
+        el_debug_surface(renderer, record, &surface);
         el_count(&renderer->stats.setups, 1);
         const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
         if (EL_WITH_CARRY && el_first_centre(y_last) > target->y_end) {

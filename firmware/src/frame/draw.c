@@ -3,6 +3,7 @@
 
 #include "base/fixed.h"
 #include "frame/bands.h"
+#include "frame/debug_hooks.h"
 #include "geometry/clip.h"
 
 /* The mesh's vertices on the screen, at the end of the list's memory. `direct`: all of them, each transformed once
@@ -342,7 +343,10 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
             d.state.light_q14[i] = (int16_t)(component > 16384 ? 16384 : (component < -16384 ? -16384 : component));
         }
     }
-    const el_shading shading = (el_shading)material->shading;
+    el_shading shading = (el_shading)material->shading;
+    if (!el_debug_begin_draw(renderer, &d.state, &shading)) {
+        return EL_OK;
+    }
     d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
     d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_PLAIN;
     el_list_end_run(&renderer->list);

@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "frame/bands.h"
+#include "frame/debug_hooks.h"
 
 _Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_BYTES counts with");
 _Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
@@ -17,7 +18,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_ARGUMENT;
     }
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
-        config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5) {
+        config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
+        config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0) {
         return EL_ERROR_SIZE;
     }
     const uint32_t width = config->width;
@@ -59,6 +61,7 @@ static void begin_pass(el_renderer *renderer, uint16_t first_band)
 {
     renderer->pass_begin = first_band;
     renderer->pass_end = (uint16_t)el_min_i32(renderer->band_count, (int32_t)first_band + renderer->pass_bands);
+    el_debug_begin_pass(renderer);
     el_count(&renderer->stats.passes, 1);
 }
 

@@ -19,6 +19,7 @@
 #include "base/sink.h"
 #include "base/stats.h"
 #include "base/status.h"
+#include "frame/debug_view.h"
 #include "geometry/mesh.h"
 #include "geometry/pose.h"
 #include "geometry/transform.h"
@@ -73,8 +74,10 @@ typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
     uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
     uint16_t band_lines;   /* lines per band, 1..height */
-    uint16_t background;   /* RGB565; may be changed in the renderer between frames */
-    uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; 0: 3, an eighth */
+    uint16_t background;   /* RGB565; may be changed in the renderer between frames; so may be the next three */
+    uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; for el_init 0 is 3, 1/8 */
+    uint8_t view;          /* el_debug_view */
+    uint8_t shading_off;   /* bits of el_shading that no surface uses, see debug_view.h */
     void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
@@ -85,10 +88,16 @@ typedef struct el_renderer {
     uint8_t current;      /* which of `bands` is drawn into next */
     uint8_t band_is_open; /* it is cleared, and part of its triangles are drawn */
     uint8_t in_frame;
+#if EL_WITH_DEBUG_VIEWS
+    uint8_t pass_draws; /* draws before this pass, modulo 256 */
+#endif
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
     uint16_t pass_bands; /* what the next pass tries for */
+#if EL_WITH_DEBUG_VIEWS
+    uint32_t band_work; /* this frame's before the open band, see EL_DEBUG_BANDS */
+#endif
     uint16_t *depth;
     uint32_t list_bytes;  /* all that lies between the bins and the depth band */
     uint32_t fixed_bytes; /* bands and bins */
@@ -99,7 +108,8 @@ typedef struct el_renderer {
     el_view view;
 } el_renderer;
 
-/* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. */
+/* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. EL_ERROR_SIZE also for a view or a shading_off that does not exist
+ * or that base/options.h leaves out. */
 el_status el_init(el_renderer *renderer, const el_config *config);
 
 /* Starts a frame. EL_ERROR_CAMERA or EL_ERROR_RANGE for a camera that cannot be used; no frame has begun then. */

@@ -90,7 +90,7 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
 {
     const el_run *const run = el_list_at(list, record->run);
     const el_draw_state *const draw = &run->draw;
-    const el_shading shading = (el_shading)draw->material->shading;
+    const el_shading shading = el_shading_of(draw);
     surface->shading = shading;
     surface->depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
     surface->dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0;

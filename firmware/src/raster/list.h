@@ -37,7 +37,21 @@ typedef struct el_draw_state {
     const el_material *material;
     int16_t light_q14[3]; /* direction towards the light in model space */
     uint8_t mirrored;     /* front faces run clockwise on the screen */
+#if EL_WITH_DEBUG_VIEWS
+    uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
+    uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */
+#endif
 } el_draw_state;
+
+/* How the draw's triangles are shaded. */
+static inline el_shading el_shading_of(const el_draw_state *draw)
+{
+#if EL_WITH_DEBUG_VIEWS
+    return (el_shading)(draw->material->shading ^ draw->reshading);
+#else
+    return (el_shading)draw->material->shading;
+#endif
+}
 
 /* Whether a triangle of that doubled area (el_doubled_area, not 0) shows its back. */
 static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area)
@@ -98,6 +112,11 @@ typedef struct el_list {
 static inline void *el_list_at(const el_list *list, uint16_t name)
 {
     return list->base + (uint32_t)name * EL_LIST_UNIT;
+}
+
+static inline const el_draw_state *el_list_draw(const el_list *list, const el_record *record)
+{
+    return &((const el_run *)el_list_at(list, record->run))->draw;
 }
 
 /* `memory` is 8-byte aligned; `bins` holds `bin_count` entries. */

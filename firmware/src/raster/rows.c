@@ -180,6 +180,18 @@ static SPECIALISED void draw_count(row r)
     }
 }
 
+/* The picture counts what the depth test rejects. */
+static SPECIALISED void draw_rejected(const el_triangle *triangle, row r)
+{
+    span s = span_begin(triangle, r.skipped, DEPTH);
+    for (int32_t x = r.x; x < r.x_end; x++) {
+        if (!passes(&s, &r.depth[x], DEPTH)) {
+            r.colour[x]++;
+        }
+        span_step(&s, DEPTH);
+    }
+}
+
 /* A plane's way along the left edge: its whole step, and a pixel more where its fraction ran over. */
 static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
 {
@@ -264,7 +276,9 @@ static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target
         if (r.x < r.x_end) {
             spans++;
             pixels += (uint32_t)(r.x_end - r.x);
-            if ((kind & COUNT) != 0) {
+            if (EL_WITH_DEBUG_VIEWS && (kind & COUNT) != 0 && (kind & DEPTH) != 0) {
+                draw_rejected(triangle, r);
+            } else if ((kind & COUNT) != 0) {
                 draw_count(r);
             } else if ((kind & TEXTURE) != 0) {
                 draw_textured(triangle, r, kind);
@@ -291,7 +305,7 @@ static unsigned kind_of(const el_surface *surface)
                    "a shading's bits are those of its loop");
     const unsigned kind = (unsigned)surface->shading << 1 & (COLOURS | TEXTURE | COUNT);
     const bool dithers = surface->dither && (kind & COLOURS) != 0;
-    const bool depth = surface->depth && (kind & COUNT) == 0;
+    const bool depth = surface->depth && (EL_WITH_DEBUG_VIEWS || (kind & COUNT) == 0);
     return kind | (dithers ? DITHER : 0U) | (depth ? DEPTH : 0U);
 }
 
@@ -324,6 +338,9 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
     DRAW(TEXTURE | COLOURS | DITHER)
     DRAW(TEXTURE | COLOURS | DITHER | DEPTH)
     DRAW(COUNT)
+#if EL_WITH_DEBUG_VIEWS
+    DRAW(COUNT | DEPTH)
+#endif
 }
 #endif
 

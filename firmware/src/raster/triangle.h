@@ -28,7 +28,7 @@ typedef struct el_corner {
 
 typedef struct el_surface {
     el_shading shading;
-    bool depth;                /* test and write depth */
+    bool depth;                /* test and write depth; with overdraw, count what the test rejects: a debug view */
     bool dither;               /* Gouraud and textured times Gouraud */
     uint16_t colour;           /* flat: RGB565 */
     uint8_t uv_error_log2;     /* textured: u and v are within 2^-uv_error_log2 texels; 1..5 */

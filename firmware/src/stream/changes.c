@@ -33,24 +33,37 @@ static uint32_t append_segment(uint32_t crc, uint32_t segment_crc)
     return segment_crc;
 }
 
-uint32_t el_changes_find(const uint16_t *pixels, uint32_t width, uint32_t segment, uint32_t *crcs, uint32_t *line_crc)
+/* The same for a part of a segment: the CRC's own steps over zero bytes. Its two exclusive-ors with ones, which el_crc32
+ * has and a shift has not, are undone around it. */
+static uint32_t append_part(uint32_t crc, uint32_t part_crc, size_t bytes)
+{
+    static const uint8_t zeros[SEGMENT_BYTES];
+    return ~el_crc32(~crc, zeros, bytes) ^ part_crc;
+}
+
+uint32_t el_changes_find(const uint16_t *pixels, uint32_t width, uint32_t segment, const uint32_t *crcs,
+                         uint32_t *fresh)
 {
     uint32_t changed = 0;
-    *line_crc = 0;
     for (uint32_t x = 0, i = 0; x < width; x += segment, i++) {
-        const uint32_t bytes = 2 * (width - x < segment ? width - x : segment);
-        const uint32_t crc = el_crc32(0, pixels + x, bytes);
-        if (x == 0) {
-            *line_crc = crc;
-        } else if (bytes == SEGMENT_BYTES) {
-            *line_crc = append_segment(*line_crc, crc);
-        } else {
-            *line_crc = el_crc32(*line_crc, pixels + x, bytes);
-        }
-        if (crc != crcs[i]) {
-            crcs[i] = crc;
-            changed |= 1U << i;
-        }
+        fresh[i] = el_crc32(0, pixels + x, 2 * (size_t)(width - x < segment ? width - x : segment));
+        changed |= (fresh[i] != crcs[i] ? 1U : 0U) << i;
     }
     return changed;
+}
+
+uint32_t el_changes_line_crc(const uint32_t *crcs, uint32_t width, uint32_t segment)
+{
+    uint32_t line_crc = crcs[0];
+    for (uint32_t x = segment, i = 1; x < width; x += segment, i++) {
+        const size_t bytes = 2 * (size_t)(width - x);
+        line_crc = bytes < SEGMENT_BYTES ? append_part(line_crc, crcs[i], bytes) : append_segment(line_crc, crcs[i]);
+    }
+    return line_crc;
+}
+
+uint32_t el_changes_digest(uint32_t digest, uint32_t line_crc)
+{
+    const uint32_t mixed = line_crc * 0x9E3779B1U;
+    return el_crc32(digest, &mixed, sizeof mixed);
 }

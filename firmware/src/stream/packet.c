@@ -93,8 +93,7 @@ static int parse(uint8_t *bytes, size_t count, el_packet *packet)
         return EL_PACKET_DAMAGED;
     }
     size_t crc_at = (size_t)size - 4;
-    uint32_t crc = el_packet_get_u16(bytes + crc_at) | (uint32_t)el_packet_get_u16(bytes + crc_at + 2) << 16;
-    if (el_crc32(0, bytes, crc_at) != crc) {
+    if (el_crc32(0, bytes, crc_at) != el_packet_get_u32(bytes + crc_at)) {
         return EL_PACKET_DAMAGED;
     }
     *packet = (el_packet){.body = bytes + 2, .body_bytes = crc_at - 2, .type = bytes[0], .seq = bytes[1]};
@@ -125,4 +124,9 @@ int el_packet_feed(el_packet_reader *reader, uint8_t byte, el_packet *packet)
 uint16_t el_packet_get_u16(const uint8_t *bytes)
 {
     return (uint16_t)(bytes[0] | bytes[1] << 8);
+}
+
+uint32_t el_packet_get_u32(const uint8_t *bytes)
+{
+    return el_packet_get_u16(bytes) | (uint32_t)el_packet_get_u16(bytes + 2) << 16;
 }

@@ -29,7 +29,9 @@ enum {
     EL_PACKET_PING = 0x07,
     EL_PACKET_STOP = 0x08,
     EL_PACKET_LOG = 0x09,
-    EL_PACKET_INPUT = 0x0A
+    EL_PACKET_INPUT = 0x0A,
+    EL_PACKET_SET_BAUD = 0x0B,
+    EL_PACKET_BAUD = 0x0C
 };
 
 enum {
@@ -96,6 +98,7 @@ typedef struct el_packet_reader {
 int el_packet_feed(el_packet_reader *reader, uint8_t byte, el_packet *packet);
 
 uint16_t el_packet_get_u16(const uint8_t *bytes);
+uint32_t el_packet_get_u32(const uint8_t *bytes);
 
 #ifdef __cplusplus
 }

@@ -5,18 +5,19 @@
  *      63 .. 126   two pixels, each a delta to its own L: 63 + 8 a + b, a and b of the classes (dr, dg, db) =
  *                  (0, 0, 0) (-1, -1, 0) (0, -1, 0) (0, 1, 0) (1, 1, 0) (-1, -1, -1) (1, 1, 1) (-1, 0, 0)
  *     127 .. 174   one of the packet's last 48 literals: 127 is the last one
- *     175 + i      run: run_length[i] pixels, each its own L
- *     196 + i      copy of run_length[i] pixels from the line above
- *     217 + i      copy of slant_length[i] pixels from the line above, from one pixel further left
- *     230 + i      the same, from one pixel further right
- *     243 .. 246   skip: the host keeps its 64, 128, 192 or 256 pixels
- *     247          skip to the end of the line
- *     248 .. 255   1..8 literals
+ *     175 .. 190   run of 1..16 pixels, each its own L
+ *     191 .. 206   copy of 1..16 pixels from the line above
+ *     207 .. 222   copy of 1..16 pixels from the line above, from one pixel further left
+ *     223 .. 238   the same, from one pixel further right
+ *     239 .. 246   what the token before is, a run, a copy or a skip, for 16, 32, ... 128 pixels more
+ *     247          the same, up to the end of the line
+ *     248          skip: the host keeps its 64 pixels
+ *     249          skip to the end of the line
+ *     250 .. 255   1..6 literals
  *
- * run_length[i], i = 0..20: 1..10, 12, 14, 16, 20, 24, 32, 48, 64, 96, 128, the line's width;
- * slant_length[i], i = 0..12: 1..8, 12, 16, 24, 32, 64. L is the pixel `lag` to the left, lag being 1 or, where a line is
- * dithered in blocks of 4x4, 4; where there is none, the pixel above. A token never crosses the end of a line. Above a packet's first
- * line is the host's line, if the packet says so; else L is 0 there, and there are no copies.
+ * L is the pixel `lag` to the left, lag being 1 or, where a line is dithered in blocks of 4x4, 4; where there is none, the
+ * pixel above. A token never crosses the end of a line. Above a packet's first line is the host's line, if the packet says
+ * so; else L is 0 there, and there are no copies.
  *
  * A packet is built line by line in one buffer: tokens from its front upwards, literals from its end downwards, so that
  * neither needs a buffer of its own, and both leave it as they lie. The literals are therefore sent last one first. A
@@ -33,16 +34,16 @@ extern "C" {
 #endif
 
 enum {
-    EL_SPLIT_FULL_BYTES = 1000, /* a packet with more of tokens and literals takes no further line */
+    EL_SPLIT_FULL_BYTES = 986, /* a packet with more of tokens and literals takes no further line */
     EL_SPLIT_MAX_LINES = 255,
     EL_SPLIT_MAX_GAP = 12,        /* unchanged lines, a token each, that cost less than another packet's head */
     EL_SPLIT_SEGMENT_PIXELS = 64, /* what is left out is a multiple of this, but for a line's last segment */
-    EL_SPLIT_SLOTS = 128          /* a power of two; half of them cost 4 % more bytes in a textured room */
+    EL_SPLIT_SLOTS = 256          /* half of them cost 0.9 % more bytes in a textured room, twice as many save 0.1 % */
 };
 
-/* Bytes of tokens and literals of a line of `width` pixels, at most: nothing costs more than literals do, which come 8 to a
+/* Bytes of tokens and literals of a line of `width` pixels, at most: nothing costs more than literals do, which come 6 to a
  * token, since every other token has a byte for a pixel or more. */
-#define EL_SPLIT_LINE_MAX_BYTES(width) (2 * (width) + ((width) + 7) / 8)
+#define EL_SPLIT_LINE_MAX_BYTES(width) (2 * (width) + ((width) + 5) / 6)
 
 /* Tokens and literals of a packet, at most, and an even number: the last line begins in a packet that is just not full. */
 #define EL_SPLIT_BUFFER_BYTES(width)                                                                                   \
@@ -50,19 +51,20 @@ enum {
 
 /* A packet that is being built. The caller owns it; all but the last two members may be read. */
 typedef struct el_split {
-    uint8_t *tokens;   /* [token_count], at the front of the buffer */
-    uint8_t *literals; /* [literal_count], 2 bytes each, at its end; the last one comes first */
+    uint8_t *tokens;    /* [token_count], at the front of the buffer */
+    uint16_t *literals; /* [literal_count], at its end; the last one comes first */
     uint32_t token_count;
     uint32_t literal_count;
-    uint32_t lines;                             /* 0: empty */
-    uint8_t lags[(EL_SPLIT_MAX_LINES + 7) / 8]; /* bit l % 8 of byte l / 8: line l has lag 4 */
-    bool lagging;                               /* a line has */
-    bool joined;                                /* to the host's line above the first one */
     uint16_t width;
-    uint16_t seen[EL_SPLIT_SLOTS]; /* by its hash, the number of the literal that was there last, from 1; 0: none */
+    uint16_t lines;               /* 0: empty */
+    bool joined;                  /* to the host's line above the first one */
+    bool lagging;                 /* a line has lag 4 */
+    int8_t dithering;             /* more than 0 while lines look dithered */
+    uint8_t seen[EL_SPLIT_SLOTS]; /* by its hash: how many literals there were, modulo 256, with the last such one */
+    uint8_t lags[(EL_SPLIT_MAX_LINES + 7) / 8]; /* bit l % 8 of byte l / 8: line l has lag 4 */
 } el_split;
 
-/* Begins the first packet. `buffer` has EL_SPLIT_BUFFER_BYTES(width), at any alignment; width is 1..2040. */
+/* Begins the first packet. `buffer` has EL_SPLIT_BUFFER_BYTES(width), at an even address; width is 1..2040. */
 void el_split_init(el_split *split, uint8_t *buffer, uint16_t width);
 
 /* Begins the next packet. */

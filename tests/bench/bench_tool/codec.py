@@ -1,5 +1,5 @@
 """The stream's codec 2: bytes beside what others need for the same frames, the encoder's instructions, the decoder's
-time."""
+time. What may not get worse is compared with tests/bench/results/codec.json."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import io
 import sys
 import time
 import zlib
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -35,31 +36,45 @@ MOST_INSTRUCTIONS = {"flat": 13, "gouraud": 16, "room": 53}
 """Per pixel, on a Cortex-M0+."""
 
 LEAST_RATE = 120
-"""Frames decoded in a second, on a desktop's core."""
+"""Frames decoded in a second of one desktop core's time."""
+
+TOLERANCE = 0.03
+"""By how much bytes and instructions may be others than the recorded ones before somebody must look and record anew."""
+
+BYTES = ("split", "lines", "segments")
 
 
 @dataclass(frozen=True)
-class Found:
-    """One sequence. Bytes are means per frame: `split`, `lines` and `segments` of codec 2, sending everything, changed
-    lines, and changed segments; the last two on the wire. Rates are frames per second."""
+class Encoded:
+    """What the encoder makes of one sequence: bytes per frame when all is sent, instructions per pixel by core; and the
+    bytes of the first design, by BYTES' names."""
 
     sequence: str
     split: int
+    first: dict[str, int]
+    instructions: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Found(Encoded):
+    """And the rest. Bytes are means per frame: `lines` and `segments` of sessions that leave out unchanged lines and
+    segments, on the wire; `runs` codec 1; `png` and `zlib` whole frames. Rates are frames in a second of process
+    time."""
+
     lines: int
     segments: int
     runs: int
     png: int
     zlib: int
-    instructions: dict[str, float]
     decoder_rate: float
     zlib_rate: float
 
 
-def measure(machines: Machines, verdicts: Verdicts) -> list[Found]:
-    """Runs every sequence. Each frame that a session sent must be whole, by its digest, and every core's packets must
-    be the native ones."""
-    folder = machines.folder / "codec"
-    native = [line for line in machines.native("codec", keep=folder) if line.words[0] != "empty"]
+def encode(machines: Machines, verdicts: Verdicts) -> list[Encoded]:
+    """Runs the encoder on all machines. Every core's packets must be the native ones."""
+    lines = [line for line in machines.native("codec", keep=_folder(machines)) if line.words[0] != "empty"]
+    native = [line for line in lines if "bytes" in line.values]
+    first = {line.words[0]: {key: int(line.values[key]) for key in BYTES} for line in lines if line.words[1] == "first"}
     crcs = {line.words: line.crc for line in native}
     counts: dict[tuple[str, str], list[int]] = {}
     for core in CORES:
@@ -68,42 +83,76 @@ def measure(machines: Machines, verdicts: Verdicts) -> list[Found]:
             verdicts.check(counted.line.crc == crcs[words], f"{core}: {' '.join(words)} has other bytes")
             counts.setdefault((words[0], core), []).append(counted.instructions)
     found = []
-    for name in dict.fromkeys(line.words[0] for line in native):
+    for name, first_bytes in first.items():
         bytes_per_frame = [int(line.values["bytes"]) for line in native if line.words[0] == name]
         instructions = {core: round(_mean(counts[name, core]) / PIXELS, 1) for core in CORES}
-        found.append(_measure_sequence(name, folder, round(_mean(bytes_per_frame)), instructions))
+        found.append(Encoded(name, round(_mean(bytes_per_frame)), first_bytes, instructions))
     for one in found:
         limit = MOST_INSTRUCTIONS.get(one.sequence)
         cost = one.instructions["cortex-m0plus"]
         verdicts.check(limit is None or cost <= limit, f"{one.sequence}: {cost} instructions per pixel, not {limit}")
+    return found
+
+
+def measure(machines: Machines, verdicts: Verdicts) -> list[Found]:
+    """Everything. Each frame that a session sent must be whole, by its digest; none may take more bytes than the first
+    design did."""
+    found = [_measure_sequence(one, _folder(machines)) for one in encode(machines, verdicts)]
+    for one in found:
+        for key in BYTES:
+            now, was = getattr(one, key), one.first[key]
+            verdicts.check(now <= was, f"{one.sequence}, {key}: {now} bytes per frame, {was} in the first design")
         verdicts.check(one.decoder_rate >= LEAST_RATE, f"{one.sequence}: decoded at {one.decoder_rate:.0f} frames/s")
     return found
+
+
+def compare_with_recorded(found: Iterable[Encoded], recorded: dict[str, Any], verdicts: Verdicts) -> None:
+    """Bytes and instructions within TOLERANCE of the recorded ones, each of which must have been measured again."""
+    known = {row["sequence"]: row for row in recorded["sequences"]}
+    for one in found:
+        row = known.get(one.sequence)
+        if row is None:
+            verdicts.check(False, f"codec, {one.sequence} is not recorded; run tests/bench/run --record-codec")
+            continue
+        figures = {f"{core}, instructions per pixel": count for core, count in one.instructions.items()}
+        was = {f"{core}, instructions per pixel": count for core, count in row["instructions"].items()}
+        for key in BYTES:
+            if hasattr(one, key):
+                figures[f"{key}, bytes per frame"] = getattr(one, key)
+                was[f"{key}, bytes per frame"] = row[key]
+        for what, figure in figures.items():
+            change = figure / was[what] - 1
+            verdicts.check(
+                abs(change) <= TOLERANCE,
+                f"codec, {one.sequence} on {what}: {figure}, recorded are {was[what]} ({change:+.1%}, {TOLERANCE:.0%} "
+                "may be); if it is meant, run tests/bench/run --record-codec and commit tests/bench/results",
+            )
+
+
+def _folder(machines: Machines) -> Path:
+    return machines.folder / "codec"
 
 
 def _mean(values: list[int]) -> float:
     return sum(values) / len(values)
 
 
-def _measure_sequence(name: str, folder: Path, bytes_per_frame: int, instructions: dict[str, float]) -> Found:
+def _measure_sequence(one: Encoded, folder: Path) -> Found:
+    name = one.sequence
     wires = {mode: (folder / f"{name}.{mode}").read_bytes() for mode in ("segments", "lines", "runs")}
     frames = {mode: _frames(name, mode, wire) for mode, wire in wires.items()}
     pictures = [frame.picture for frame in frames["lines"]]
     packed = [zlib.compress(picture.tobytes(), 6) for picture in pictures]
-    begin = time.perf_counter()
-    for one in packed:
-        zlib.decompress(one)
-    zlib_s = time.perf_counter() - begin
+    decoder_s, zlib_s = _decode_s(wires["lines"], packed)
     return Found(
-        name,
-        bytes_per_frame,
-        round(_mean([frame.end.wire_bytes for frame in frames["lines"]])),
-        round(_mean([frame.end.wire_bytes for frame in frames["segments"]])),
-        round(_mean([_runs_bytes(picture) for picture in pictures[::EVERY]])),
-        round(_mean([_png_bytes(picture) for picture in pictures[::EVERY]])),
-        round(_mean([len(one) for one in packed])),
-        instructions,
-        round(len(pictures) / _decode_s(wires["lines"]), 1),
-        round(len(pictures) / zlib_s, 1),
+        **vars(one),
+        lines=round(_mean([frame.end.wire_bytes for frame in frames["lines"]])),
+        segments=round(_mean([frame.end.wire_bytes for frame in frames["segments"]])),
+        runs=round(_mean([_runs_bytes(picture) for picture in pictures[::EVERY]])),
+        png=round(_mean([_png_bytes(picture) for picture in pictures[::EVERY]])),
+        zlib=round(_mean([len(one) for one in packed])),
+        decoder_rate=round(len(pictures) / decoder_s, 1),
+        zlib_rate=round(len(pictures) / zlib_s, 1),
     )
 
 
@@ -123,22 +172,25 @@ def _bodies(wire: bytes) -> list[protocol.Body | None]:
     return [protocol.unpack(chunk) for chunk in framing.Splitter().feed(wire) if isinstance(chunk, framing.Packet)]
 
 
-def _decode_s(wire: bytes) -> float:
-    """Seconds that the decoder takes for all frames; the best of three."""
+def _decode_s(wire: bytes, packed: list[bytes]) -> tuple[float, float]:
+    """Process time that the decoder takes for all frames, and zlib for the same ones packed; the best of five each."""
     frames: list[list[protocol.Band]] = [[]]
     for body in _bodies(wire):
         if isinstance(body, protocol.Band):
             frames[-1].append(body)
         elif isinstance(body, protocol.FrameEnd):
             frames.append([])
-    best = float("inf")
-    for _ in range(3):
+    best, best_zlib = float("inf"), float("inf")
+    for _ in range(5):
         picture: Pixels = np.zeros((240, 320), np.uint16)
-        begin = time.perf_counter()
+        begin = time.process_time()
         for bands in frames[:-1]:
             split.decode(bands, picture)
-        best = min(best, time.perf_counter() - begin)
-    return best
+        middle = time.process_time()
+        for one in packed:
+            zlib.decompress(one)
+        best, best_zlib = min(best, middle - begin), min(best_zlib, time.process_time() - middle)
+    return best, best_zlib
 
 
 def _runs_bytes(picture: Pixels) -> int:
@@ -153,18 +205,19 @@ def _png_bytes(picture: Pixels) -> int:
 
 
 def table(found: list[Found]) -> str:
-    """Bytes per frame, instructions per pixel, frames per second."""
-    rows = [
-        f"{'':12} {'split':>7} {'lines':>7} {'segments':>8} {'runs':>7} {'PNG':>7} {'zlib 6':>7}"
-        f" {'M0+':>6} {'M4F':>6} {'decoder':>8} {'zlib':>6}"
+    """Bytes per frame, instructions per pixel, frames per second; in brackets the first design's bytes."""
+    lines = [
+        f"{'':12} {'split':>15} {'lines':>15} {'segments':>15} {'runs':>7} {'PNG':>6} {'zlib 6':>6}"
+        f" {'M0+':>5} {'M4F':>5} {'decoder':>8} {'zlib':>6} {'ratio':>6}"
     ]
-    rows += [
-        f"{one.sequence:12} {one.split:7} {one.lines:7} {one.segments:8} {one.runs:7} {one.png:7} {one.zlib:7}"
-        f" {one.instructions['cortex-m0plus']:6.1f} {one.instructions['cortex-m4f']:6.1f}"
-        f" {one.decoder_rate:8.0f} {one.zlib_rate:6.0f}"
-        for one in found
-    ]
-    return "\n".join(rows)
+    for one in found:
+        sizes = " ".join(f"{getattr(one, key):6} {'(' + str(one.first[key]) + ')':>8}" for key in BYTES)
+        lines.append(
+            f"{one.sequence:12} {sizes} {one.runs:7} {one.png:6} {one.zlib:6}"
+            f" {one.instructions['cortex-m0plus']:5.1f} {one.instructions['cortex-m4f']:5.1f}"
+            f" {one.decoder_rate:8.0f} {one.zlib_rate:6.0f} {one.decoder_rate / one.zlib_rate:6.1%}"
+        )
+    return "\n".join(lines)
 
 
 def rows(found: list[Found]) -> list[dict[str, Any]]:

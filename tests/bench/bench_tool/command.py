@@ -24,6 +24,7 @@ from .machines import (
 )
 
 RESULTS = BENCH / "results"
+CODEC = RESULTS / "codec.json"
 STATUS_SKIPPED = 77
 
 
@@ -41,7 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
-    what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed")
+    what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed, check them")
+    what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -66,6 +68,7 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
         recorded = read_recorded(RESULTS / "scenes.json")
         if recorded["compiler"] == compiler_version():
             frames.compare_with_recorded(found, recorded, verdicts)
+            codec.compare_with_recorded(codec.encode(machines, verdicts), read_recorded(CODEC), verdicts)
         else:
             print(f"counts not compared: recorded with gcc {recorded['compiler']}, this is {compiler_version()}")
     if options.quick or options.size:
@@ -86,11 +89,13 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
     if options.profile is not None:
         for core in CORES:
             _print_profile(core, machines.profile(core, options.profile))
-    if options.codec or options.all:
+    if options.codec or options.record_codec or options.all:
         streams = codec.measure(machines, verdicts)
         print(codec.table(streams))
-        if options.all:
-            _write_json(RESULTS / "codec.json", {"sequences": codec.rows(streams)})
+        if options.codec:
+            codec.compare_with_recorded(streams, read_recorded(CODEC), verdicts)
+        else:
+            _write_json(CODEC, {"sequences": codec.rows(streams)}, "tests/bench/run --record-codec")
     if options.alternatives or options.all:
         groups = compare.measure(machines, verdicts)
         print(compare.table(groups))
@@ -117,8 +122,8 @@ def _print_profile(core: str, functions: dict[str, int]) -> None:
             print(f"  {count / 1e6:9.3f} M {count / total:6.1%}  {name}")
 
 
-def _write_json(path: Path, content: dict[str, Any]) -> None:
-    head = {"command": "tests/bench/run --all", "compiler": compiler_version(), "qemu": qemu_version()}
+def _write_json(path: Path, content: dict[str, Any], command: str = "tests/bench/run --all") -> None:
+    head = {"command": command, "compiler": compiler_version(), "qemu": qemu_version()}
     path.parent.mkdir(exist_ok=True)
     path.write_text(json.dumps({**head, **content}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     print(f"wrote {path.relative_to(ROOT)}")

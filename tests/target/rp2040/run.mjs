@@ -4,7 +4,7 @@
 //
 // --stdio: a line of JSON on standard input is a step, a line on standard output its outcome. Nothing happens in
 // between, so that a run is the same each time, however slow the machine. A step is {"ns": time to pass, "rx": bytes
-// from the host in base64, "hold_tx": true while the line takes nothing, "until_frame": true to stop at a picture's
+// from the host in base64, "baud": the rate of the host's end from now on, "hold_tx": true while the line takes nothing, "until_frame": true to stop at a picture's
 // end, "report": true for all that is known}; all members are optional.
 //
 // --tcp: `edgeline view -p socket://127.0.0.1:PORT` shows the emulated board; emulated time passes no faster than real
@@ -57,7 +57,8 @@ function createBoard(given) {
   });
 }
 
-function step(board, { ns = 0, rx = '', hold_tx = false, until_frame = false, report = false }) {
+function step(board, { ns = 0, rx = '', baud = 0, hold_tx = false, until_frame = false, report = false }) {
+  board.uart.lineBaud = baud || board.uart.lineBaud;
   board.uart.receive(Buffer.from(rx, 'base64'));
   if (hold_tx) {
     board.uart.holdTx = true;

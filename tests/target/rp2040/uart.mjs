@@ -25,6 +25,7 @@ export class Uart {
     this.mcu = mcu;
     this.problems = problems;
     this.speed = speed;
+    this.lineBaud = 115200; // of the other end
     this.holdTx = false;
     this.tx = [];
     this.shifting = -1;
@@ -108,6 +109,9 @@ export class Uart {
       this.problems.add('emulator-warning', `UART0 has no register to write at offset ${offset.toString(16)}`);
       return;
     }
+    if ((offset === IBRD || offset === FBRD) && (this.shifting >= 0 || this.tx.length > 0)) {
+      this.problems.add('uart-set-up', 'the divider changes while a byte is on its way');
+    }
     this.registers[offset] = writeAlias(this.registers[offset], value, kind);
     if (offset === LCR_H) {
       this.latched = (this.registers[IBRD] & 0xffff) + (this.registers[FBRD] & 0x3f) / 64;
@@ -120,11 +124,11 @@ export class Uart {
   // A fault of wiring or set-up that would garble the line, in words; '' when all is well.
   get wrong() {
     const control = this.registers[CR];
-    const off = Math.abs(this.baud / 115200 - 1);
+    const off = Math.abs(this.baud / this.lineBaud - 1);
     return (control & CR_ENABLED) === 0 ? 'the UART is not enabled'
       : (control & CR_TX) === 0 || (control & CR_RX) === 0 ? 'transmitter or receiver is off'
       : (this.registers[LCR_H] & LCR_FORMAT & ~LCR_FIFOS) !== LCR_8N1 ? 'the format is not 8N1'
-      : off > 0.01 ? `${Math.round(this.baud)} baud is not 115200`
+      : off > 0.01 ? `${Math.round(this.baud)} baud is not ${this.lineBaud}`
       : '';
   }
 
@@ -179,7 +183,7 @@ export class Uart {
   #startRx() {
     if (!this.receiving && this.incoming.length > 0) {
       this.receiving = true;
-      this.rxAlarm.schedule((BITS_PER_BYTE * 1e9) / 115200);
+      this.rxAlarm.schedule((BITS_PER_BYTE * 1e9) / this.lineBaud);
     }
   }
 
