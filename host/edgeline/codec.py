@@ -89,28 +89,30 @@ def encode_raw(frame: int, y0: int, pixels: Pixels) -> Band:
 
 def encode_runs(frame: int, y0: int, pixels: Pixels) -> Band:
     """`pixels` as runs wherever two neighbours are equal, literals elsewhere."""
+    begins = np.ones(pixels.shape, bool)
+    begins[:, 1:] = pixels[:, 1:] != pixels[:, :-1]
+    starts = np.flatnonzero(begins)
+    sizes = np.diff(starts, append=pixels.size)
+    line_begins = starts % pixels.shape[1] == 0
     tokens = bytearray()
-    literals = bytearray()
-    for line in pixels.tolist():
-        start = 0
-        while start < len(line):
-            run = _run_length(line, start)
-            if run >= 2:
-                tokens.append(run + _RUN_BIAS)
-                literals += line[start].to_bytes(2, "little")
-                start += run
-                continue
-            end = start + 1
-            while end < len(line) and end - start < _LONGEST_LITERALS and _run_length(line, end) < 2:
-                end += 1
-            tokens.append(end - start - 1)
-            literals += b"".join(value.to_bytes(2, "little") for value in line[start:end])
-            start = end
-    return Band(frame, y0, len(pixels), Codec.RUNS, bytes(tokens), bytes(literals))
+    stored: list[int] = []
+    alone = 0  # literals that have no token yet
+    for value, size, at_begin in zip(
+        pixels.ravel()[starts].tolist(), sizes.tolist(), line_begins.tolist(), strict=True
+    ):
+        if at_begin or size >= 2:
+            tokens += _literal_tokens(alone)
+            alone = 0
+        runs, rest = divmod(size, _LONGEST_RUN)
+        tokens += bytes((_LONGEST_RUN + _RUN_BIAS,)) * runs
+        if rest >= 2:
+            tokens.append(rest + _RUN_BIAS)
+        alone += rest == 1
+        stored += [value] * (runs + (rest > 0))
+    tokens += _literal_tokens(alone)
+    return Band(frame, y0, len(pixels), Codec.RUNS, bytes(tokens), np.array(stored, PIXEL).tobytes())
 
 
-def _run_length(line: list[int], start: int) -> int:
-    end = start + 1
-    while end < len(line) and end - start < _LONGEST_RUN and line[end] == line[start]:
-        end += 1
-    return end - start
+def _literal_tokens(count: int) -> bytes:
+    whole, rest = divmod(count, _LONGEST_LITERALS)
+    return bytes((_LONGEST_LITERALS - 1,)) * whole + (bytes((rest - 1,)) if rest else b"")

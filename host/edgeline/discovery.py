@@ -5,8 +5,9 @@ Names and USB ids say little (many boards share a USB bridge), so the HELLO deci
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from serial.tools import list_ports
@@ -17,8 +18,12 @@ from edgeline.protocol import Hello
 from edgeline.session import Session
 from edgeline.transport import connect
 
-PROBE_TIMEOUT_S = 3.0
-"""Opening the port resets many boards: one second in the boot loader, then up to one until HELLO."""
+PROBE_TIMEOUT_S = 3.5
+"""Opening the port resets many boards: one second in the boot loader, then up to one until HELLO. A device that a host
+left behind at a higher rate says HELLO at its first one after 3 s."""
+
+OPEN_TIMEOUT_S = 1.0
+"""More, for a port that is slow to open; some never do (a modem's, a Bluetooth link's)."""
 
 
 @dataclass(frozen=True)
@@ -52,33 +57,40 @@ def probe(device: str, baud: int, timeout_s: float = PROBE_TIMEOUT_S) -> Hello |
         return None
 
 
-def probe_all(devices: Sequence[str], baud: int) -> list[Hello | None]:
-    """As `probe` for all of them at once."""
-    if not devices:
-        return []
-    with ThreadPoolExecutor(len(devices)) as pool:
-        return list(pool.map(lambda device: probe(device, baud), devices))
+def probe_all(devices: Sequence[str], baud: int, timeout_s: float | None = None) -> list[Hello | None]:
+    """As `probe` for all of them at once; a port that does not even open in that time is left alone."""
+    found: dict[str, Hello | None] = {}
+    wait_s = PROBE_TIMEOUT_S if timeout_s is None else timeout_s
+
+    def ask(device: str) -> None:
+        found[device] = probe(device, baud, wait_s)
+
+    threads = [threading.Thread(target=ask, args=(device,), daemon=True) for device in devices]
+    for thread in threads:
+        thread.start()
+    deadline = time.monotonic() + wait_s + OPEN_TIMEOUT_S
+    for thread in threads:
+        thread.join(max(0.0, deadline - time.monotonic()))
+    return [found.get(device) for device in devices]
 
 
 def find(baud: int) -> str:
     """The one port on which an Edgeline answers. Raises DeviceError if there is none, or more than one.
 
-    Only USB ports are asked: the others are rarely connected, and a modem or console there should not be written to.
+    USB ports are asked first, the others only where none of those answers: they are rarely connected to a board.
     """
-    candidates = [port.device for port in ports() if port.usb is not None]
-    if not candidates:
-        raise DeviceError(
-            "no USB serial port found: plug the board in, or name a port with -p (a pty, socket://HOST:PORT)"
-        )
-    hellos = probe_all(candidates, baud)
-    answering = [device for device, hello in zip(candidates, hellos, strict=True) if hello is not None]
-    if not answering:
-        raise DeviceError(
-            f"no Edgeline answers on {', '.join(candidates)} at {baud} baud: set -b, or name a port with -p"
-        )
-    if len(answering) > 1:
-        raise DeviceError(f"more than one Edgeline answers: choose one with -p: {', '.join(answering)}")
-    return answering[0]
+    found = ports()
+    for candidates in ([p.device for p in found if p.usb is not None], [p.device for p in found if p.usb is None]):
+        hellos = probe_all(candidates, baud)
+        answering = [device for device, hello in zip(candidates, hellos, strict=True) if hello is not None]
+        if len(answering) > 1:
+            raise DeviceError(f"more than one Edgeline answers: choose one with -p: {', '.join(answering)}")
+        if answering:
+            return answering[0]
+    if not found:
+        raise DeviceError("no serial port found: plug the board in, or name a port with -p (a pty, socket://HOST:PORT)")
+    names = ", ".join(port.device for port in found)
+    raise DeviceError(f"no Edgeline answers on {names} at {baud} baud: set -b, or name a port with -p")
 
 
 def moved(before: PortInfo) -> str | None:

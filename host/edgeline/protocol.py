@@ -15,6 +15,7 @@ from edgeline.errors import DeviceError, WireError
 from edgeline.framing import Packet
 
 MAJOR = 1
+MINOR = 2
 MAGIC = b"EDGL"
 RGB565 = 1
 MAX_SIDE = 2040
@@ -53,6 +54,8 @@ class PacketType(IntEnum):
     STOP = 0x08
     LOG = 0x09
     INPUT = 0x0A
+    SET_BAUD = 0x0B
+    BAUD = 0x0C
 
 
 class Capability(IntFlag):
@@ -63,6 +66,17 @@ class Capability(IntFlag):
     SPLIT = 4
     SKIPS_LINES = 256
     INPUT = 512
+    ROLL = 1024
+    SET_BAUD = 2048
+
+
+class Mode(IntEnum):
+    """How START wants the frames paced."""
+
+    BLOCK = 0
+    """every frame that is sent is whole, and rendering waits for the wire"""
+    ROLL = 1
+    """rendering never waits, and a frame carries the changed lines that the link takes at once"""
 
 
 class Codec(IntEnum):
@@ -72,7 +86,7 @@ class Codec(IntEnum):
 
 
 class Control(IntEnum):
-    """What INPUT sets; 128..255 are a program's own."""
+    """What INPUT sets (WIRE.md, "INPUT", has each one's values); 128..255 are a program's own."""
 
     SCENE = 1
     """index into the device's scenes; the scene begins at its frame 0"""
@@ -80,17 +94,70 @@ class Control(IntEnum):
     """number of the scene's next frame"""
     PAUSE = 3
     """1: the scene stays at its frame; 0: it goes on"""
+    STEP = 4
+    """a scene that stands still goes on by so many frames, 1 .. 2^31 - 1"""
+    YAW = 5
+    """the camera's way around what it looks at, to the right; 65536 is a whole turn"""
+    PITCH = 6
+    """likewise upwards, -16384 .. 16384"""
+    ZOOM = 7
+    """the camera's distance is divided by 2^(value / 256), -1024 .. 1024"""
+    PAN_X = 8
+    """the camera and what it looks at move to the right, in 1/256 of their distance, -4096 .. 4096"""
+    PAN_Y = 9
+    """likewise upwards"""
+    SHADING = 10
+    """one of Shading"""
+    TEXTURE_ERROR = 11
+    """texture coordinates are within 2^-value texel, 1..5; 0: what the program chose"""
+    ANTIALIASING = 12
+    """samples per pixel, 1, 4 or 8"""
+    VIEW = 13
+    """one of DebugView"""
+
+
+class Shading(IntEnum):
+    """Values of Control.SHADING."""
+
+    AS_MADE = 0
+    FLAT = 1
+    COLOURS = 2
+    """vertex colours, no textures"""
+    TEXTURES = 3
+    """textures, no vertex colours"""
+
+
+class DebugView(IntEnum):
+    """Values of Control.VIEW: what the renderer did, drawn instead of the picture."""
+
+    PICTURE = 0
+    OVERDRAW = 1
+    """how often a pixel was drawn, depth not asked"""
+    DEPTH = 2
+    """near light, far dark"""
+    TRIANGLES = 3
+    """each in a colour of its own"""
+    BANDS = 4
+    """the picture, and how much work each band was"""
+    REJECTED = 5
+    """how often a pixel was tested and found hidden"""
 
 
 DECODABLE = Capability.RAW | Capability.RUNS | Capability.SPLIT
+_ALL_CAPABILITIES = DECODABLE | Capability.SKIPS_LINES | Capability.INPUT | Capability.ROLL | Capability.SET_BAUD
+_CONTROLS_OF_1_1 = 1 << Control.SCENE | 1 << Control.FRAME | 1 << Control.PAUSE
 
 
 @dataclass(frozen=True)
 class Hello:
-    """What a device is. `width` in pixels and `height` in lines, 1..2040; `boot_id` differs after each start."""
+    """What a device is. `width` in pixels and `height` in lines, 1..2040; `boot_id` differs after each start.
+
+    The members from `input` on are told since version 1.2; before it they have the values given here.
+    """
 
     TYPE: ClassVar = PacketType.HELLO
     _LAYOUT: ClassVar = struct.Struct("<4sBBHHBBHHIII")
+    _SINCE_1_2: ClassVar = struct.Struct("<BBIHI")
 
     width: int
     height: int
@@ -102,6 +169,17 @@ class Hello:
     skip_segment: int = 0
     largest_packet: int = 1024
     highest_baud: int = 0
+    """0: the link has no rate"""
+    input: int = 0
+    """number of the INPUT that the device took last"""
+    scenes: int = 0
+    """how many there are for Control.SCENE; 0: the device does not say"""
+    controls: int = 0
+    """bit c: it knows control c, 0..31; ask `knows`"""
+    views: int = 0
+    """bit v: it has the DebugView v; ask `has_view`"""
+    baud: int = 0
+    """the rate that the link has now, 0: none"""
 
     def encode(self) -> bytes:
         fixed = self._LAYOUT.pack(
@@ -118,7 +196,10 @@ class Hello:
             self.highest_baud,
             self.boot_id,
         )
-        return fixed + _pack_string(self.target) + _pack_string(self.firmware)
+        body = fixed + _pack_string(self.target) + _pack_string(self.firmware)
+        if self.minor < 2:
+            return body
+        return body + self._SINCE_1_2.pack(self.input, self.scenes, self.controls, self.views, self.baud)
 
     @classmethod
     def decode(cls, body: bytes) -> Hello:
@@ -127,7 +208,7 @@ class Hello:
             raise WireError("a HELLO without the magic EDGL")
         if body[4] != MAJOR:
             raise DeviceError(
-                f"the device speaks version {body[4]}.{body[5]} of the wire, this host {MAJOR}.x: "
+                f"the device speaks version {body[4]}.{body[5]} of the wire, this host {MAJOR}.{MINOR}: "
                 f"update the {'host' if body[4] > MAJOR else 'firmware'}"
             )
         _need(body, cls._LAYOUT.size, "HELLO")
@@ -137,13 +218,32 @@ class Hello:
         if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
             raise WireError(f"a HELLO with a picture of {width}x{height}")
         target, offset = _unpack_string(body, cls._LAYOUT.size)
-        firmware, _ = _unpack_string(body, offset)
+        firmware, offset = _unpack_string(body, offset)
         if pixels != RGB565:
             raise DeviceError(f"{target} sends pixel format {pixels}, this host knows RGB565 alone: update the host")
         if not capabilities & DECODABLE:
             raise DeviceError(f"{target} offers no codec that this host knows: update the host")
-        known = Capability(capabilities & (DECODABLE | Capability.SKIPS_LINES | Capability.INPUT))
-        return cls(width, height, known, boot_id, target, firmware, minor, segment, largest, baud)
+        known = Capability(capabilities & _ALL_CAPABILITIES)
+        since_1_2 = (0, 0, _CONTROLS_OF_1_1 if Capability.INPUT in known else 0, 0, 0)
+        if minor >= 2:
+            _need(body, offset + cls._SINCE_1_2.size, "HELLO")
+            since_1_2 = cls._SINCE_1_2.unpack_from(body, offset)
+        return cls(width, height, known, boot_id, target, firmware, minor, segment, largest, baud, *since_1_2)
+
+    @property
+    def numbers_inputs(self) -> bool:
+        """Whether FRAME_END tells which INPUT it shows."""
+        return self.minor >= 2
+
+    def knows(self, control: int) -> bool:
+        """Whether INPUT of this control has an effect; what a program does with its own, 128..255, it does not say."""
+        if Capability.INPUT not in self.capabilities:
+            return False
+        return control >= 128 or bool(control < 32 and self.controls >> control & 1)
+
+    def has_view(self, view: int) -> bool:
+        """Whether Control.VIEW can be set to `view`."""
+        return self.knows(Control.VIEW) and bool(0 <= view < 16 and self.views >> view & 1)
 
 
 @dataclass(frozen=True)
@@ -156,7 +256,7 @@ class Start:
     credits: int
     fps: int = 0
     codecs: Capability = Capability.RAW | Capability.RUNS
-    mode: int = 0
+    mode: int = Mode.BLOCK
 
     def encode(self) -> bytes:
         return self._LAYOUT.pack(self.mode, self.credits, self.fps, self.codecs)
@@ -222,10 +322,15 @@ class Band:
 
 @dataclass(frozen=True)
 class FrameEnd:
-    """A frame's proof and its cost. Times in microseconds, `time_us` modulo 2^32; `counters` in COUNTERS' order."""
+    """A frame's proof and its cost. Times in microseconds, `time_us` modulo 2^32; `counters` in COUNTERS' order.
+
+    The members from `input` on are told since version 1.2 and are 0 or False before it.
+    """
 
     TYPE: ClassVar = PacketType.FRAME_END
-    _LAYOUT: ClassVar = struct.Struct("<HHIIIIHHIB")
+    _LAYOUT: ClassVar = struct.Struct("<HHIIIIHBBIB")
+    _MIXED: ClassVar = 1
+    _OWING: ClassVar = 2
 
     frame: int
     bands: int
@@ -236,6 +341,14 @@ class FrameEnd:
     dropped: int
     digest: int
     counters: tuple[int, ...] = ()
+    input: int = 0
+    """number of the INPUT that was taken last before the frame began"""
+    mixed: bool = False
+    """some lines are of earlier frames (ROLL)"""
+    cycles: int = 0
+    """of the processor while it rendered, modulo 2^32; 0: the board does not count them"""
+    owing: bool = False
+    """lines that START or KEY asked for are still to come, so a wrong digest is no new damage"""
 
     def encode(self) -> bytes:
         fixed = self._LAYOUT.pack(
@@ -246,19 +359,39 @@ class FrameEnd:
             self.encode_us,
             self.wire_bytes,
             self.dropped,
-            0,
+            self.input,
+            (self._MIXED if self.mixed else 0) | (self._OWING if self.owing else 0),
             self.digest,
             len(self.counters),
         )
-        return fixed + struct.pack(f"<{len(self.counters)}I", *self.counters)
+        return fixed + struct.pack(f"<{len(self.counters) + 1}I", *self.counters, self.cycles)
 
     @classmethod
     def decode(cls, body: bytes) -> FrameEnd:
         _need(body, cls._LAYOUT.size, "FRAME_END")
-        (frame, bands, time_us, render, encode, wire, dropped, _, digest, count) = cls._LAYOUT.unpack_from(body)
-        _need(body, cls._LAYOUT.size + 4 * count, "FRAME_END")
+        (frame, bands, time_us, render, encode, wire, dropped, number, flags, digest, count) = cls._LAYOUT.unpack_from(
+            body
+        )
+        end = cls._LAYOUT.size + 4 * count
+        _need(body, end, "FRAME_END")
         counters = struct.unpack_from(f"<{count}I", body, cls._LAYOUT.size)
-        return cls(frame, bands, time_us, render, encode, wire, dropped, digest, counters)
+        # Before 1.2 the body ends here. Part of a number is no number: a longer body is one of a later minor version.
+        (cycles,) = struct.unpack_from("<I", body, end) if len(body) >= end + 4 else (0,)
+        return cls(
+            frame=frame,
+            bands=bands,
+            time_us=time_us,
+            render_us=render,
+            encode_us=encode,
+            wire_bytes=wire,
+            dropped=dropped,
+            digest=digest,
+            counters=counters,
+            input=number,
+            mixed=bool(flags & cls._MIXED),
+            cycles=cycles,
+            owing=bool(flags & cls._OWING),
+        )
 
     def named_counters(self) -> dict[str, int]:
         """The work counters by name; those of a newer firmware, which this host has no name for, as `counter_N`."""
@@ -306,14 +439,20 @@ class Key:
 
 @dataclass(frozen=True)
 class Ping:
+    """Asks for a HELLO and tells the version of the host's wire; before 1.2 it told nothing, which is (0, 0) here."""
+
     TYPE: ClassVar = PacketType.PING
+    _LAYOUT: ClassVar = struct.Struct("<BB")
+
+    major: int = MAJOR
+    minor: int = MINOR
 
     def encode(self) -> bytes:
-        return b""
+        return self._LAYOUT.pack(self.major, self.minor)
 
     @classmethod
-    def decode(cls, _body: bytes) -> Ping:
-        return cls()
+    def decode(cls, body: bytes) -> Ping:
+        return cls(*cls._LAYOUT.unpack_from(body)) if len(body) >= cls._LAYOUT.size else cls(0, 0)
 
 
 @dataclass(frozen=True)
@@ -330,20 +469,62 @@ class Stop:
 
 @dataclass(frozen=True)
 class Input:
-    """Sets `control`, 0..255, to `value`, -2^31 .. 2^31 - 1. Only for a device with Capability.INPUT."""
+    """Sets `control`, 0..255, to `value`, -2^31 .. 2^31 - 1. Only for a device with Capability.INPUT.
+
+    `number` 0..255 is one more than that of the INPUT before; None, as before 1.2: without one.
+    """
 
     TYPE: ClassVar = PacketType.INPUT
     _LAYOUT: ClassVar = struct.Struct("<Bi")
 
     control: int
     value: int
+    number: int | None = None
 
     def encode(self) -> bytes:
-        return self._LAYOUT.pack(self.control, self.value)
+        number = b"" if self.number is None else bytes((self.number,))
+        return self._LAYOUT.pack(self.control, self.value) + number
 
     @classmethod
     def decode(cls, body: bytes) -> Input:
         _need(body, cls._LAYOUT.size, "INPUT")
+        control, value = cls._LAYOUT.unpack_from(body)
+        return cls(control, value, body[cls._LAYOUT.size] if len(body) > cls._LAYOUT.size else None)
+
+
+@dataclass(frozen=True)
+class SetBaud:
+    """Asks for another rate of the link, in bits per second. Only for a device with Capability.SET_BAUD."""
+
+    TYPE: ClassVar = PacketType.SET_BAUD
+    _LAYOUT: ClassVar = struct.Struct("<I")
+
+    rate: int
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.rate)
+
+    @classmethod
+    def decode(cls, body: bytes) -> SetBaud:
+        _need(body, cls._LAYOUT.size, "SET_BAUD")
+        return cls(*cls._LAYOUT.unpack_from(body))
+
+
+@dataclass(frozen=True)
+class Baud:
+    """The answer: the rate that the link will have when this packet's last bit is out; the present one is a no."""
+
+    TYPE: ClassVar = PacketType.BAUD
+    _LAYOUT: ClassVar = struct.Struct("<I")
+
+    rate: int
+
+    def encode(self) -> bytes:
+        return self._LAYOUT.pack(self.rate)
+
+    @classmethod
+    def decode(cls, body: bytes) -> Baud:
+        _need(body, cls._LAYOUT.size, "BAUD")
         return cls(*cls._LAYOUT.unpack_from(body))
 
 
@@ -363,10 +544,10 @@ class Log:
         return cls(_utf8(body, "LOG"))
 
 
-Body = Hello | Start | Band | FrameEnd | Ack | Key | Ping | Stop | Input | Log
+Body = Hello | Start | Band | FrameEnd | Ack | Key | Ping | Stop | Input | Log | SetBaud | Baud
 
 _BODIES: dict[int, type[Body]] = {
-    body.TYPE: body for body in (Hello, Start, Band, FrameEnd, Ack, Key, Ping, Stop, Input, Log)
+    body.TYPE: body for body in (Hello, Start, Band, FrameEnd, Ack, Key, Ping, Stop, Input, Log, SetBaud, Baud)
 }
 
 

@@ -4,36 +4,75 @@ No I/O, and the time is an argument, so that tests drive it to the microsecond. 
 
 * PING until there is a HELLO, then START. A HELLO with another boot id, or one where frames should come, begins anew;
   so does silence, because then the credits may be lost with a FRAME_END that never arrived.
-* A frame leaves as an event only if all of its bands arrived and its digest is that of the session's own picture.
-* After damage, a gap in seq or a wrong digest: KEY for all lines, once for as many frames as may be on their way.
-* INPUT that was given before the HELLO goes out ahead of START, so that the first frame shows it; to a device that has
-  been started anew all controls are told again, and after silence to one that is to stand still.
-* ACK for every FRAME_END, good or not. The credit has to go back either way, or two damaged frames would end it all.
+* A frame leaves as an event only if all of its bands arrived and its digest is that of the session's own picture; what
+  is missing is asked for again (stream.py, picture.py).
+* INPUT that arrives once each and in order (inputs.py), the link's rate (rate.py), how good the link is (quality.py).
 """
 
 from __future__ import annotations
 
-import zlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
 
-import numpy as np
-
-from edgeline import codec, framing, protocol, split
-from edgeline.codec import PIXEL, Pixels
+from edgeline import framing, protocol
 from edgeline.errors import DeviceError, EdgelineError, WireError
-from edgeline.protocol import Hello
+from edgeline.events import (
+    Connected,
+    Damage,
+    Event,
+    Frame,
+    Log,
+    Partial,
+    RateChanged,
+    Refused,
+    SetRate,
+    Stalled,
+)
+from edgeline.inputs import Inputs
+from edgeline.protocol import Capability, Hello, Mode
+from edgeline.quality import Counts, LinkQuality, Statistics, Tally
+from edgeline.rate import SILENCE_S, Rate, can_change
+from edgeline.stream import CREDITS, Clock, Stream
 
-CREDITS = 2
-"""One frame on its way, one being drawn."""
+__all__ = [
+    "CREDITS",
+    "Connected",
+    "Counts",
+    "Damage",
+    "Event",
+    "Frame",
+    "Log",
+    "Partial",
+    "RateChanged",
+    "Refused",
+    "Session",
+    "SetRate",
+    "Stalled",
+    "State",
+]
 
 PING_INTERVAL_S = 0.5
+USUAL_PAUSES = 10
+SHORTEST_STALL_S = 0.5
 STALL_S = 2.0
-"""Silence after which the session begins anew. Doubled each time in vain, lest a slow renderer be restarted forever."""
+"""Silence after which the session begins anew: so many usual pauses between packets, from the shortest to this. With
+both credits lost, which takes two lost ACKs since START, a device says nothing for a second. Doubled each time in vain,
+up to the longest, lest a slow renderer be restarted forever."""
 
 LONGEST_STALL_S = 16.0
+MOST_DOUBLINGS = 5
+PAUSE_DECAY = 0.95
+"""What is left of a long pause with each packet that follows."""
+
 HELLO_ECHO_S = 0.5
 """For this long after START a HELLO is the answer to an earlier PING, not a call for another START."""
+
+AWAY_S = 1.0
+"""Who is not called for longer than this has not been listening, and cannot call it silence."""
+
+
+MOST_TEXT = 4096
+"""Characters of a Log; a packet could hold sixteen times as many."""
 
 
 class State(Enum):
@@ -41,117 +80,60 @@ class State(Enum):
     """for a HELLO"""
     READY = auto()
     """it is there, and START has not been asked for, or STOP has"""
+    RETUNING = auto()
+    """the link's rate is being changed"""
     STREAMING = auto()
     REFUSED = auto()
-    """the device speaks another version"""
-
-
-@dataclass(frozen=True)
-class Connected:
-    """A device is there. `restarted`: it has been started anew since the last time."""
-
-    hello: Hello
-    restarted: bool
-
-
-@dataclass(frozen=True)
-class Frame:
-    """A verified frame. `picture` is RGB565, uint16 of shape (height, width), read-only and not touched again."""
-
-    number: int
-    picture: Pixels
-    end: protocol.FrameEnd
-
-    @property
-    def counters(self) -> dict[str, int]:
-        """The renderer's work counters by name (firmware/src/base/stats.h)."""
-        return self.end.named_counters()
-
-
-@dataclass(frozen=True)
-class Damage:
-    """Something arrived that was not what the device sent, or did not arrive. It has been asked for again."""
-
-    reason: str
-
-
-@dataclass(frozen=True)
-class Log:
-    """Text from the device: a LOG packet, or printable bytes between packets."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Stalled:
-    """Nothing arrived for `seconds`; the session asks for a HELLO again."""
-
-    seconds: float
-
-
-@dataclass(frozen=True)
-class Refused:
-    """The device cannot be served; nothing more will be sent or said."""
-
-    error: DeviceError
-
-
-Event = Connected | Frame | Damage | Log | Stalled | Refused
-
-
-@dataclass
-class Counts:
-    """What has passed since the session began. `damaged` counts from the first HELLO on: what comes before may be the
-    tail of a packet that was under way when the port was opened."""
-
-    bytes_received: int = 0
-    packets: int = 0
-    frames: int = 0
-    damaged: int = 0
-    keys_sent: int = 0
-
-
-@dataclass
-class _Assembly:
-    """The frame that is arriving."""
-
-    frame: int
-    bands: int = 0
-    next_y: int = 0
-    gap: bool = False
-    split: list[protocol.Band] = field(default_factory=list)
-    """those that wait to be decoded together"""
+    """the device cannot be served"""
 
 
 @dataclass
 class Session:
-    """`autostart` False stops at the HELLO. `fps` 0: as fast as the device goes."""
+    """`autostart` False stops at the HELLO. `fps` 0: as fast as the device goes.
+
+    `one_way`: nobody hears what is said (a recording, a pipe), so nothing is, and silence means nothing. `baud` is the
+    rate that the port was opened at, 0 if it has none; `fast` the one to go on with, 0 for the device's highest, None
+    to stay.
+    """
 
     autostart: bool = True
     fps: int = 0
+    mode: Mode = Mode.BLOCK
+    one_way: bool = False
+    baud: int = 0
+    fast: int | None = None
+    codecs: Capability = protocol.DECODABLE
     counts: Counts = field(default_factory=Counts)
     hello: Hello | None = None
     state: State = State.WAITING
 
     def __post_init__(self) -> None:
+        if not 0 <= self.fps <= 0xFFFF:
+            raise EdgelineError(f"{self.fps} frames per second: 0..65535, 0 for all that the device can")
+        _check_rate(self.fast or 0)
         self._splitter = framing.Splitter()
         self._outgoing = bytearray()
-        self._inputs: dict[int, int] = {}
+        self._inputs = Inputs()
+        self._tally = Tally(self.counts)
+        self._clock = Clock()
+        self._rate: Rate | None = None
+        self._stream: Stream | None = None
+        self._now: float | None = None
         self._seq_out = 0
         self._seq_in: int | None = None
-        self._last_ping: float | None = None
-        self._last_packet = 0.0
+        self._last_packet: framing.Packet | None = None
+        self._heard = 0.0
+        self._pinged: float | None = None
         self._started = 0.0
-        self._stall_s = STALL_S
-        self._key_covers = 0
-        self._assembly: _Assembly | None = None
-        self._finished: int | None = None
-        self._picture: Pixels = np.zeros((0, 0), PIXEL)
-        self._line_crcs = np.zeros(0, "<u4")
+        self._restarts_in_vain = 0
+        self._usual_pause_s = STALL_S
+
+    # --- what the owner calls ----------------------------------------------------------------------------------------
 
     def receive(self, data: bytes, now: float) -> list[Event]:
         """Takes the next bytes from the device; `now` in seconds of any steady clock."""
-        self.counts.bytes_received += len(data)
+        self._now = now
+        self._tally.received(len(data), now)
         events: list[Event] = []
         for chunk in self._splitter.feed(data):
             if self.state is State.REFUSED:
@@ -159,24 +141,36 @@ class Session:
             if isinstance(chunk, framing.Packet):
                 events += self._packet(chunk, now)
             elif isinstance(chunk, framing.Damaged):
-                events += self._damage(f"{chunk.reason} ({chunk.size} bytes)")
+                # If this was a packet, a gap in seq follows; if it came between two, nothing is lost.
+                events += self._damage(f"{chunk.reason} ({chunk.size} bytes)", now)
             elif chunk.text:
-                events.append(Log(chunk.text))
+                events.append(Log(chunk.text[:MOST_TEXT]))
+        self._send_inputs(now)
         return events
 
     def tick(self, now: float) -> list[Event]:
         """Lets time pass. To be called often, a few times per PING_INTERVAL_S at least."""
+        if self._now is not None and now - self._now > AWAY_S:
+            self._heard = now
+        self._now = now
+        if self.one_way or self.state is State.REFUSED:
+            return []
         events: list[Event] = []
-        silence = now - self._last_packet
-        if self.state is State.STREAMING and silence > self._stall_s:
-            self._stall_s = min(2 * self._stall_s, LONGEST_STALL_S)
+        silence = now - self._heard
+        if self.state is State.STREAMING and silence > self._longest_pause_s():
+            self._restarts_in_vain = min(self._restarts_in_vain + 1, MOST_DOUBLINGS)
             self.state = State.WAITING
             events.append(Stalled(silence))
-        due = self._last_ping is None or now - self._last_ping >= PING_INTERVAL_S
-        if self.state is State.WAITING and due:
-            self._last_ping = now
-            self._send(protocol.Ping())
+        if self._rate is not None:
+            events += self._tune(self._rate, silence, now)
+        if self.state is State.WAITING and (self._pinged is None or now - self._pinged >= PING_INTERVAL_S):
+            self._ping(now)
+        self._send_inputs(now)
         return events
+
+    def _longest_pause_s(self) -> float:
+        pause = min(STALL_S, max(SHORTEST_STALL_S, USUAL_PAUSES * self._usual_pause_s))
+        return min(LONGEST_STALL_S, pause * 2.0**self._restarts_in_vain)
 
     def stop(self) -> None:
         """Ends the stream politely: a device that is told does not wait for credits."""
@@ -184,186 +178,275 @@ class Session:
             self._send(protocol.Stop())
             self.state = State.READY
 
+    def close(self) -> None:
+        """As `stop`, and leaves the device at the link's first rate, where the next host will look for it."""
+        self.stop()
+        if self._rate is not None and self._rate.raised and self.state is not State.REFUSED:
+            self._send(protocol.SetBaud(self._rate.first))
+
     def input(self, control: int, value: int) -> None:
         """Sets one of the device's controls (protocol.Control, or 128..255: the program's own) to `value`, -2^31 ..
-        2^31 - 1; before the HELLO, as soon as it is there.
+        2^31 - 1; before the HELLO, as soon as it is there. Each arrives once and in order (from wire 1.2 on); of those
+        that wait, the newest YAW .. VIEW replaces the one before.
 
-        Raises EdgelineError on numbers that do not fit, DeviceError if the device takes no INPUT. If that is found out
-        later, it is Refused.
+        Raises EdgelineError on numbers that do not fit or when more than a thousand wait, DeviceError if the device
+        does not take it or cannot be told. If that is found out later, it is Refused.
         """
         if not (0 <= control <= 255 and -(2**31) <= value < 2**31):
             raise EdgelineError(f"control {control} = {value}: a control is 0..255, its value a signed 32-bit number")
+        if self.one_way:
+            raise DeviceError("this stream is one-way (a recording, a pipe): there is nobody to take INPUT")
         if self.hello is not None:
-            _need_input(self.hello)
-            self._send(protocol.Input(control, value))
-        self._inputs.pop(control, None)  # the order counts: SCENE sets the frame, too
-        self._inputs[control] = value
+            _need_controls(self.hello, (control,))
+        self._inputs.ask(control, value)
+        if self._now is not None:
+            self._send_inputs(self._now)
+
+    @property
+    def inputs_waiting(self) -> int:
+        """How many INPUTs the device is not known to have taken."""
+        return self._inputs.waiting
+
+    def request_baud(self, rate: int = 0) -> None:
+        """Changes the link's rate to `rate`, 0 for the device's highest; RateChanged tells what came of it.
+
+        Raises EdgelineError if that is no rate, DeviceError if the device's link has none to change.
+        """
+        _check_rate(rate)
+        self.fast = rate
+        if self.hello is None or self._rate is None:
+            return
+        if self.one_way or not can_change(self.hello):
+            raise DeviceError(_fixed_rate(self.hello))
+        self._rate.wish(rate)
+        if self.state in (State.READY, State.STREAMING) and self._now is not None:
+            self._retune(self._rate, self.hello, self._now)
+
+    def refuse_rate(self, now: float) -> list[Event]:
+        """The port cannot do what SetRate asked for. The device comes back to its first rate by itself; then a more
+        common one is tried."""
+        if self._rate is None:
+            return []
+        events = self._rate.refuse()
+        self._go_on(self._rate, now)
+        return events
+
+    @property
+    def retuning(self) -> bool:
+        """The link's rate is being changed, or will be."""
+        pending = self._rate is not None and self.hello is not None and self._rate.goal(self.hello) is not None
+        return self.state is State.RETUNING or pending
+
+    @property
+    def rate(self) -> int:
+        """The link's rate in bits per second, 0 if it has none."""
+        return self._rate.now if self._rate is not None else self.baud
+
+    def quality(self, now: float | None = None) -> LinkQuality:
+        """How good the link was in the last seconds before `now`, which is by default the latest that is known."""
+        return self._tally.meter.quality(self._now or 0.0 if now is None else now)
+
+    def statistics(self, now: float | None = None) -> Statistics:
+        """What it carried in the last seconds, likewise."""
+        return self._tally.meter.statistics(self._now or 0.0 if now is None else now)
 
     def bytes_to_send(self) -> bytes:
         """What has to go to the device now; each byte is given once."""
         data = bytes(self._outgoing)
         self._outgoing.clear()
+        self.counts.bytes_sent += len(data)
         return data
 
+    # --- packets -----------------------------------------------------------------------------------------------------
+
     def _send(self, body: protocol.Body) -> None:
-        self._outgoing += framing.encode(protocol.pack(body, self._seq_out))
-        self._seq_out = self._seq_out + 1 & 0xFF
+        if not self.one_way:
+            self._outgoing += framing.encode(protocol.pack(body, self._seq_out))
+            self._seq_out = self._seq_out + 1 & 0xFF
+
+    def _ping(self, now: float) -> None:
+        self._pinged = now
+        self._send(protocol.Ping())
+
+    def _send_inputs(self, now: float) -> None:
+        if self.hello is not None and self.state in (State.READY, State.STREAMING):
+            for body in self._inputs.due(now, self._stream.credits if self._stream is not None else 0):
+                self._send(body)
+            self.counts.inputs_resent = self._inputs.resent
 
     def _packet(self, packet: framing.Packet, now: float) -> list[Event]:
-        self.counts.packets += 1
-        self._last_packet = now
+        self._tally.packet(now)
+        pause_s, self._heard = now - self._heard, now
+        if packet == self._last_packet and self._seq_in == packet.seq + 1 & 0xFF:
+            return self._damage(f"packet {packet.seq} came twice", now)
+        self._last_packet = packet
         try:
             body = protocol.unpack(packet)
         except DeviceError as error:
-            self.state = State.REFUSED
-            return [Refused(error)]
+            return self._refuse(error)
         except WireError as error:
-            return self._sequence(packet.seq) + self._damage(str(error))
+            events = self._sequence(packet.seq, now)
+            self._lost_packets()
+            return events + self._damage(str(error), now)
+        if isinstance(body, Hello) and self.hello is not None and body.boot_id != self.hello.boot_id:
+            self._seq_in = None
+        events = self._sequence(packet.seq, now)
+        stream = self._stream if self.state is State.STREAMING else None
         if isinstance(body, Hello):
-            if self.hello is not None and body.boot_id != self.hello.boot_id:
-                self._seq_in = None
-            return self._sequence(packet.seq) + self._greet(body, now)
-        events = self._sequence(packet.seq)
-        if isinstance(body, protocol.Log):
-            events.append(Log(body.text))
-        elif isinstance(body, protocol.Band) and self.state is State.STREAMING:
-            events += self._band(body)
-        elif isinstance(body, protocol.FrameEnd) and self.state is State.STREAMING:
-            events += self._frame_end(body)
+            events += self._greet(body, now)
+        elif isinstance(body, protocol.Log):
+            events.append(Log(body.text[:MOST_TEXT]))
+        elif isinstance(body, protocol.Band | protocol.FrameEnd) and stream is not None:
+            self._usual_pause_s = max(pause_s, PAUSE_DECAY * self._usual_pause_s)
+            if isinstance(body, protocol.Band):
+                events += stream.band(body, now)
+            else:
+                self._restarts_in_vain = 0
+                events += stream.end(body, now)
+        elif isinstance(body, protocol.Baud) and self._rate is not None:
+            events += self._rate.answer(body.rate, now)
+            self._go_on(self._rate, now)
         return events
 
-    def _sequence(self, seq: int) -> list[Event]:
+    def _sequence(self, seq: int, now: float) -> list[Event]:
         expected, self._seq_in = self._seq_in, seq + 1 & 0xFF
         if expected is None or seq == expected:
             return []
-        if self._assembly is not None:
-            self._assembly.gap = True
-        return self._damage(f"packet {seq} arrived where {expected} was due")
+        lost = seq - expected & 0xFF
+        if lost < 128:  # else it is one that comes late, and nothing new is lost
+            self._tally.lost(lost, now)
+        self._lost_packets()
+        return self._damage(f"packet {seq} arrived where {expected} was due", now)
+
+    def _lost_packets(self) -> None:
+        if self._stream is not None:
+            self._stream.lost_packets()
+
+    def _damage(self, reason: str, now: float) -> list[Event]:
+        if self.state is State.RETUNING:
+            return []  # bytes at one rate, read at another
+        if self.hello is not None:
+            self._tally.damaged(now)
+        return [Damage(reason)]
+
+    def _refuse(self, error: DeviceError) -> list[Event]:
+        self.state = State.REFUSED
+        return [Refused(error)]
+
+    # --- the device is there -----------------------------------------------------------------------------------------
 
     def _greet(self, hello: Hello, now: float) -> list[Event]:
         known, self.hello = self.hello, hello
         restarted = known is not None and known.boot_id != hello.boot_id
-        if self.state is State.STREAMING and not restarted and now - self._started < HELLO_ECHO_S:
-            return []
-        if self.state is State.READY and not restarted:
-            return []
-        # Where the scene stands still, telling again changes nothing if they had arrived; in silence they may not have.
-        stands_still = self._inputs.get(protocol.Control.PAUSE) == 1
-        if self._inputs and (known is None or restarted or stands_still):
+        events: list[Event] = []
+        if known is None or _identity(known) != _identity(hello):
+            events.append(Connected(hello, restarted))
+        if known is None:
             try:
-                _need_input(hello)
+                _need_controls(hello, self._inputs.controls)
+                _need_mode(hello, self.mode)
             except DeviceError as error:
-                self.state = State.REFUSED
-                return [Refused(error)]
-            for control, value in self._inputs.items():
-                self._send(protocol.Input(control, value))
+                return self._refuse(error)
+            if self.fast is not None and not self.one_way and not can_change(hello):
+                events.append(RateChanged(self.baud, _fixed_rate(hello)))
+        if self._rate is None:
+            self._rate = Rate(self.baud, self.fast)
+        self._rate.met(hello, restarted)
+        if restarted:
+            self._clock.restarted()
+        self._inputs.greet(hello, restarted, self._pinged)
+        if self.state is State.RETUNING:
+            events += self._rate.hello()
+            self._go_on(self._rate, now)
+            return events
+        resized = known is not None and (known.width, known.height) != (hello.width, hello.height)
+        if known is not None and not restarted and not resized:
+            echo = self.one_way or now - self._started < HELLO_ECHO_S
+            if self.state is State.READY or (self.state is State.STREAMING and echo):
+                return events
         self.state = State.READY
         if self.autostart:
-            self._start(hello, now)
-        return [] if known == hello else [Connected(hello, restarted)]
+            self._start(self._rate, hello, now)
+        return events
 
-    def _start(self, hello: Hello, now: float) -> None:
+    def _start(self, rate: Rate, hello: Hello, now: float) -> None:
+        if self._retune(rate, hello, now):
+            return
+        self._send_inputs(now)
+        self._inputs.restart()
+        size = hello.width, hello.height
+        self._stream = Stream(
+            size, self.mode, say=self._send, inputs=self._inputs, tally=self._tally, clock=self._clock
+        )
+        self._send(protocol.Start(CREDITS, self.fps, hello.capabilities & self.codecs, self.mode))
         self.state = State.STREAMING
         self._started = now
-        self._assembly = None
-        self._finished = None
-        self._key_covers = 0
-        self._picture = np.zeros((hello.height, hello.width), PIXEL)
-        blank = zlib.crc32(bytes(2 * hello.width))
-        self._line_crcs = np.full(hello.height, blank, "<u4")
-        codecs = hello.capabilities & protocol.DECODABLE
-        self._send(protocol.Start(CREDITS, self.fps, codecs))
 
-    def _band(self, band: protocol.Band) -> list[Event]:
-        height, width = self._picture.shape
-        events: list[Event] = []
-        if self._assembly is None or self._assembly.frame != band.frame:
-            events += self._abandon()
-            self._assembly = _Assembly(band.frame)
-        assembly = self._assembly
-        if band.y0 < assembly.next_y or band.y0 + band.lines > height:
-            reason = f"frame {band.frame}: a band of {band.lines} lines at line {band.y0} is out of place"
-            return events + self._damage(reason)
-        try:
-            if band.codec is protocol.Codec.SPLIT:
-                split.check_size(band, width)
-                assembly.split.append(band)
-            else:
-                events += self._draw_split(assembly)
-                self._draw(band.y0, codec.decode(band, width))
-        except WireError as error:
-            return events + self._damage(f"frame {band.frame}: {error}")
-        assembly.bands += 1
-        assembly.next_y = band.y0 + band.lines
-        return events
+    # --- the link's rate ---------------------------------------------------------------------------------------------
 
-    def _draw(self, y0: int, pixels: Pixels) -> None:
-        self._picture[y0 : y0 + len(pixels)] = pixels
-        for y, line in enumerate(pixels, y0):
-            self._line_crcs[y] = zlib.crc32(line)
+    def _retune(self, rate: Rate, hello: Hello, now: float) -> bool:
+        """Begins to change the link's rate if another one is wished for."""
+        goal = None if self.one_way else rate.goal(hello)
+        if goal is not None:
+            self._stop_for(rate.begin(goal, now))
+        return goal is not None
 
-    def _draw_split(self, assembly: _Assembly) -> list[Event]:
-        """Draws the bands of codec 2 that have come: together, which is what their decoder is quick at."""
-        bands, assembly.split = assembly.split, []
-        if not bands:
-            return []
-        try:
-            split.decode(bands, self._picture)
-        except WireError as error:
-            return self._damage(f"frame {assembly.frame}: {error}")
-        for band in bands:
-            for y in range(band.y0, band.y0 + band.lines):
-                self._line_crcs[y] = zlib.crc32(self._picture[y])
+    def _stop_for(self, bodies: list[protocol.Body]) -> None:
+        self.stop()
+        self.state = State.RETUNING
+        for body in bodies:
+            self._send(body)
+
+    def _tune(self, rate: Rate, silence: float, now: float) -> list[Event]:
+        """What the rate's clock has to say."""
+        if rate.busy:
+            bodies, events = rate.tick(now)
+            for body in bodies:
+                self._send(body)
+            self._go_on(rate, now)
+            return events
+        if rate.raised and silence > SILENCE_S:
+            self.state = State.WAITING
+            return rate.fall_back(f"nothing for {SILENCE_S:g} s at {rate.now} baud")
+        if rate.raised and self.state is State.STREAMING and self._tally.meter.covers(now):
+            quality = self._tally.meter.quality(now)
+            if rate.is_bad(quality):
+                self._stop_for(rate.bring_back(f"{100 * quality.failed_share:.0f} % of the frames failed", now))
         return []
 
-    def _abandon(self) -> list[Event]:
-        """The next frame begins, and this one's FRAME_END was lost: its credit would be lost with it. What came of it
-        is part of the picture that the next one goes on from."""
-        events: list[Event] = []
-        if self._assembly is not None:
-            events = self._draw_split(self._assembly)
-            if self._assembly.gap:
-                self._send(protocol.Ack(self._assembly.frame, 1))
-        self._assembly = None
-        return events
-
-    def _frame_end(self, end: protocol.FrameEnd) -> list[Event]:
-        if end.frame == self._finished:
-            return []
-        events: list[Event] = []
-        if self._assembly is not None and self._assembly.frame != end.frame:
-            events += self._abandon()
-        if self._assembly is not None:
-            events += self._draw_split(self._assembly)
-        bands = self._assembly.bands if self._assembly is not None else 0
-        self._assembly = None
-        self._finished = end.frame
-        if bands != end.bands:
-            events += self._damage(f"frame {end.frame}: {bands} of {end.bands} bands arrived")
-        elif zlib.crc32(self._line_crcs.tobytes()) != end.digest:
-            events += self._damage(f"frame {end.frame}: the picture's digest is wrong")
-        else:
-            self.counts.frames += 1
-            self._key_covers = 0
-            self._stall_s = STALL_S
-            picture = self._picture.copy()
-            picture.flags.writeable = False
-            events.append(Frame(end.frame, picture, end))
-        self._key_covers = max(0, self._key_covers - 1)
-        self._send(protocol.Ack(end.frame, 1))
-        return events
-
-    def _damage(self, reason: str) -> list[Event]:
-        self.counts.damaged += self.hello is not None
-        if self.state is State.STREAMING and self.hello is not None and self._key_covers == 0:
-            # The device reads KEY before it has the credit for frame k + CREDITS, so that frame is whole at the latest;
-            # the ones until then may fail without another KEY.
-            self._key_covers = CREDITS
-            self.counts.keys_sent += 1
-            self._send(protocol.Key(0, self.hello.height))
-        return [Damage(reason)]
+    def _go_on(self, rate: Rate, now: float) -> None:
+        """Where a change of the rate has come to an end: asks who is there, since nothing else is certain."""
+        if self.state is State.RETUNING and not rate.busy:
+            self.state = State.WAITING
+            self._heard = now
+            self._seq_in = None
+            self._tally.meter.clear()
+            self._ping(now)
 
 
-def _need_input(hello: Hello) -> None:
-    if not hello.capabilities & protocol.Capability.INPUT:
+def _identity(hello: Hello) -> Hello:
+    """Without what changes from one HELLO of a device to the next."""
+    return replace(hello, input=0, baud=0)
+
+
+def _need_controls(hello: Hello, controls: tuple[int, ...]) -> None:
+    if controls and Capability.INPUT not in hello.capabilities:
         raise DeviceError(f"{hello.target}, {hello.firmware}: takes no INPUT, so its scene cannot be chosen")
+    for control in controls:
+        if not hello.knows(control):
+            names = {member.value: member.name for member in protocol.Control}
+            raise DeviceError(f"{hello.target}, {hello.firmware}: has no control {names.get(control, control)}")
+
+
+def _need_mode(hello: Hello, mode: Mode) -> None:
+    if mode is Mode.ROLL and Capability.ROLL not in hello.capabilities:
+        raise DeviceError(f"{hello.target}, {hello.firmware}: does not know the mode roll: use block")
+
+
+def _check_rate(rate: int) -> None:
+    if not 0 <= rate < 2**32:
+        raise EdgelineError(f"{rate} is no rate of a link")
+
+
+def _fixed_rate(hello: Hello) -> str:
+    return f"{hello.target}, {hello.firmware}: its link's rate cannot be changed"

@@ -1,8 +1,8 @@
 """The byte links: serial ports and ptys, TCP, and one-way streams (a capture in a file, a pipe).
 
-A transport reads in large pieces, waits at most READ_TIMEOUT_S, and turns every failure into one line that says what to
-do. What was measured: pyserial's `read(1)` followed by `read(in_waiting)` moves 28 MB/s through a pty, `read(1)` alone
-0.01; pyserial's `socket://` knows no `in_waiting` beyond 1 and waits for a whole buffer, so TCP is done here.
+A transport reads in large pieces, waits at most READ_TIMEOUT_S, and turns every failure into one line that says what
+to do. What was measured: pyserial's `read(1)` followed by `read(in_waiting)` moves 28 MB/s through a pty, `read(1)`
+alone 0.01; pyserial's `socket://` knows no `in_waiting` beyond 1 and waits for a whole buffer, so TCP is done here.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import select
 import socket
 import sys
 from pathlib import Path
@@ -19,6 +20,8 @@ from urllib.parse import urlsplit
 import serial
 
 from edgeline.errors import DeviceError, StreamEndError, StreamError
+from edgeline.playback import RecordingTransport
+from edgeline.recording import is_recording
 
 READ_TIMEOUT_S = 0.05
 WRITE_TIMEOUT_S = 2.0
@@ -33,23 +36,36 @@ class Transport(Protocol):
     def name(self) -> str:
         """As the user calls it."""
 
+    @property
+    def one_way(self) -> bool:
+        """Nobody reads what is written: a recording, a pipe."""
+
+    @property
+    def baud(self) -> int:
+        """Bits per second, 0 for a link without a rate."""
+
     def read(self) -> bytes:
-        """What has arrived, b"" if nothing did within READ_TIMEOUT_S. A one-way stream waits as long as it takes."""
+        """What has arrived, b"" if nothing did within READ_TIMEOUT_S."""
 
     def write(self, data: bytes) -> None:
         """Sends all of `data`."""
+
+    def set_baud(self, rate: int) -> bool:
+        """Changes the rate, and says whether that is possible; as before if not. No-op, and True, without a rate."""
 
     def close(self) -> None:
         """Never raises; may be called twice."""
 
 
 def connect(port: str, baud: int) -> Transport:
-    """Opens `port`: a serial port or pty, `socket://HOST:PORT`, another URL of pyserial's, `-` (standard input) or a
-    file with a captured stream. Raises DeviceError."""
+    """Opens `port`: a serial port or pty, `socket://HOST:PORT`, another URL of pyserial's, `-` (standard input), a
+    recording, or a file with a captured stream. Raises DeviceError, EdgelineError for a recording that is damaged."""
     if port.startswith("socket://"):
         return TcpTransport(port)
     if port == "-":
         return StreamTransport("standard input", sys.stdin.fileno())
+    if is_recording(port):
+        return RecordingTransport(port)
     if Path(port).is_file():
         try:
             return StreamTransport(port, os.open(port, os.O_RDONLY | getattr(os, "O_BINARY", 0)))
@@ -60,6 +76,8 @@ def connect(port: str, baud: int) -> Transport:
 
 class SerialTransport:
     """A port of pyserial's."""
+
+    one_way = False
 
     def __init__(self, port: str, baud: int) -> None:
         self.name = port
@@ -96,6 +114,20 @@ class SerialTransport:
         except (OSError, TypeError):
             raise StreamError(f"{self.name}: the device is gone (unplugged, or its simulator has ended)") from None
 
+    @property
+    def baud(self) -> int:
+        return int(self._port.baudrate)
+
+    def set_baud(self, rate: int) -> bool:
+        before = self.baud
+        try:
+            self._port.baudrate = rate
+        except (OSError, ValueError, OverflowError):  # drivers differ in which rates they refuse, and how
+            with contextlib.suppress(OSError, ValueError):
+                self._port.baudrate = before
+            return False
+        return True
+
     def close(self) -> None:
         with contextlib.suppress(OSError):
             self._port.close()
@@ -103,6 +135,9 @@ class SerialTransport:
 
 class TcpTransport:
     """`socket://HOST:PORT`: a simulator, or a serial server."""
+
+    one_way = False
+    baud = 0
 
     def __init__(self, url: str) -> None:
         self.name = url
@@ -138,6 +173,9 @@ class TcpTransport:
         except OSError:
             raise StreamError(f"{self.name}: the other end takes no bytes") from None
 
+    def set_baud(self, _rate: int) -> bool:
+        return True
+
     def close(self) -> None:
         with contextlib.suppress(OSError):
             self._socket.close()
@@ -146,21 +184,30 @@ class TcpTransport:
 class StreamTransport:
     """Bytes that were recorded or are piped in; what the host says goes nowhere."""
 
+    one_way = True
+    baud = 0
+
     def __init__(self, name: str, descriptor: int) -> None:
         self.name = name
         self._descriptor = descriptor
 
     def read(self) -> bytes:
         try:
+            # A file is always ready; on Windows, where select knows sockets alone, a pipe is waited for.
+            if os.name == "posix" and not select.select([self._descriptor], [], [], READ_TIMEOUT_S)[0]:
+                return b""
             data = os.read(self._descriptor, RECEIVE_BYTES)
-        except OSError as error:
-            raise StreamError(f"{self.name}: {error.strerror or error}") from None
+        except (OSError, ValueError) as error:  # ValueError: it has been closed
+            raise StreamError(f"{self.name}: {getattr(error, 'strerror', None) or error}") from None
         if not data:
             raise StreamEndError(f"{self.name}: the stream has ended")
         return data
 
     def write(self, data: bytes) -> None:
         """There is nobody to tell."""
+
+    def set_baud(self, _rate: int) -> bool:
+        return True
 
     def close(self) -> None:
         if self._descriptor > 2:

@@ -1,8 +1,7 @@
-"""`edgeline info`, `shot`, `record` and `edgeline.open` against the fake device on real links, faults included."""
+"""Every command that reads a device, and `edgeline.open`, over ptys, TCP, pipes and recordings, faults included."""
 
 from __future__ import annotations
 
-import io
 import json
 import signal
 import subprocess
@@ -16,9 +15,20 @@ from PIL import Image
 
 import edgeline as package
 from conftest import Edgeline, environment
+from edgeline.cli import main
 from edgeline.colour import to_rgb
+from edgeline.framing import Packet, Splitter
+from edgeline.playback import RecordingTransport
+from edgeline.protocol import Mode, SetBaud, Start, Stop, unpack
+from edgeline.recording import opened
+from edgeline.session import Session
 from fake_device import FakeDevice, Faults, PtyDevice, TcpDevice, _Served, bars
-from talk import Talk
+from recorded import (
+    capture,
+    edgeline_here,  # noqa: F401 (a fixture)
+    frames_of,
+    write_recording,
+)
 
 LINKS = [PtyDevice, TcpDevice]
 
@@ -101,23 +111,6 @@ def test_the_python_interface(link: type[_Served]) -> None:
                 break
 
 
-def capture(frames: int) -> bytes:
-    """What a device says when all its frames are asked for."""
-    talk = Talk()
-    data = io.BytesIO()
-    run = talk.device.run
-
-    def tee(now: float) -> bytes:
-        sent = run(now)
-        data.write(sent)
-        return sent
-
-    talk.device.run = tee  # type: ignore[method-assign]
-    while len(talk.frames) < frames:
-        talk.step()
-    return data.getvalue()
-
-
 def test_a_captured_stream_is_a_port(edgeline: Edgeline, tmp_path: Path) -> None:
     (tmp_path / "stream.bin").write_bytes(capture(15))
     result = edgeline("record", "-p", "stream.bin", "-o", "f/%02d.png")
@@ -167,3 +160,155 @@ def test_a_second_device_after_the_first(edgeline: Edgeline) -> None:
             assert edgeline("shot", "-p", served.port).returncode == 0
     names = [type(body).__name__ for body in served.device.commands]
     assert names.count("Stop") == 3
+
+
+# --- headless viewing, and the port's options -----------------------------------------------------------------------
+
+
+def test_view_without_a_window(link: type[_Served], edgeline: Edgeline) -> None:
+    with link(FakeDevice(split=True)) as served:
+        seen = edgeline("view", "-p", served.port, "--headless", "--frames", "9", "--json", "--digests")
+        assert (seen.returncode, seen.stderr) == (0, "")
+        told = json.loads(seen.stdout)
+        lines = edgeline("view", "-p", served.port, "--headless", "--frames", "3", "--digests").stdout.splitlines()
+    assert (told["frames"], told["quality"], len(told["digests"])) == (9, "good", 9)
+    assert [len(line.split()) for line in lines[:3]] == [2, 2, 2]
+    assert lines[3].startswith(f"{told['port']}: 3 verified frames")
+
+
+def test_a_recording_is_a_port_for_all_of_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    frames = write_recording(tmp_path / "a.elrec", 14)
+
+    def run(*arguments: str) -> dict[str, object]:
+        assert main([*arguments, "-p", "a.elrec", "--json"]) == 0
+        told: dict[str, object] = json.loads(capsys.readouterr().out)
+        return told
+
+    digests = [f"{frame.end.digest:08x}" for frame in frames]
+    assert run("view", "--headless", "--digests")["digests"] == digests
+    assert run("shot", "--frames", "6")["digest"] == digests[5]
+    assert np.array_equal(np.asarray(Image.open(tmp_path / "shot.png")), to_rgb(frames[5].picture))
+    assert run("record", "-o", "f/%02d.png")["frames"] == 14
+    assert np.array_equal(np.asarray(Image.open(tmp_path / "f/13.png")), to_rgb(frames[13].picture))
+    assert run("bench")["frames"] == 13
+    info = run("info")
+    assert info["target"] == "fake board"
+    assert info["recording"] == {
+        "recorded_from": "/dev/ttyACM0",
+        "start": "2026-09-21T14:13:20.123+00:00",
+        "seconds": frames_of(tmp_path / "a.elrec")[-1][0],
+        "frames": 14,
+        "received": sum(len(piece) for piece in _said(tmp_path / "a.elrec", 0)),
+        "sent": sum(len(piece) for piece in _said(tmp_path / "a.elrec", 1)),
+    }
+    with package.open("a.elrec") as stream:
+        assert [f"{frame.end.digest:08x}" for frame in stream] == digests
+
+
+def _said(path: Path, direction: int) -> list[bytes]:
+    with opened(str(path)) as reader:
+        return [piece.data for piece in reader if piece.direction == direction]
+
+
+def test_a_recording_has_all_that_passed(link: type[_Served], edgeline: Edgeline, tmp_path: Path) -> None:
+    """The device's bytes from the first on, the host's up to STOP, and the device's frames."""
+    with link(FakeDevice(split=True)) as served:
+        result = edgeline("record", "-p", served.port, "--frames", "20", "-o", "a.elrec", "--json")
+        sent = dict(served.device.sent)
+        commands = list(served.device.commands)
+    assert (result.returncode, result.stderr) == (0, "")
+    told = json.loads(result.stdout)
+    frames = [frame for _, frame in frames_of(tmp_path / "a.elrec")]
+    assert told["frames"] == len(frames) == 20
+    assert all(np.array_equal(frame.picture, sent[frame.number]) for frame in frames)
+    assert told["received"] == sum(map(len, _said(tmp_path / "a.elrec", 0)))
+    assert told["sent"] == sum(map(len, _said(tmp_path / "a.elrec", 1)))
+    chunks = Splitter().feed(b"".join(_said(tmp_path / "a.elrec", 1)))
+    bodies = [unpack(chunk) for chunk in chunks if isinstance(chunk, Packet)]
+    assert bodies[: len(commands)] == commands
+    assert isinstance(bodies[-1], Stop)
+
+
+def test_a_recording_played_at_its_times(tmp_path: Path) -> None:
+    """Half a second of it in a quarter, and nothing too early."""
+    write_recording(tmp_path / "a.elrec", 25)
+    due = [time_s for time_s, _ in frames_of(tmp_path / "a.elrec")]
+    begin = time.monotonic()
+    with package.Link(RecordingTransport(str(tmp_path / "a.elrec"), 2.0), Session(one_way=True)) as stream:
+        came = [time.monotonic() - begin for _ in stream]
+    assert len(came) == 25
+    assert all(came_s >= due_s / 2 for came_s, due_s in zip(came, due, strict=True))
+
+
+def test_the_rate_and_the_mode_are_asked_for(edgeline: Edgeline) -> None:
+    with PtyDevice(FakeDevice(max_baud=460_800, rolls=True)) as served:
+        assert edgeline("shot", "-p", served.port, "--fast").returncode == 0
+        assert edgeline("shot", "-p", served.port, "--fast", "230400").returncode == 0
+        seen = edgeline("view", "-p", served.port, "--headless", "--frames", "4", "--mode", "roll")
+    assert seen.returncode == 0, seen.stderr
+    rates = [body.rate for body in served.device.commands if isinstance(body, SetBaud)]
+    assert rates[0] == 460_800
+    assert 230_400 in rates
+    starts = [body.mode for body in served.device.commands if isinstance(body, Start)]
+    assert (starts[0], starts[-1]) == (Mode.BLOCK, Mode.ROLL)
+
+
+def test_variables_stand_for_port_and_rate(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    opened_at: list[tuple[str, int]] = []
+
+    def connect(port: str, baud: int) -> RecordingTransport:
+        opened_at.append((port, baud))
+        return RecordingTransport("a.elrec")
+
+    write_recording(tmp_path / "a.elrec", 3)
+    monkeypatch.setattr("edgeline.commands.options.connect", connect)
+    monkeypatch.setenv("EDGELINE_PORT", "COM7")
+    monkeypatch.setenv("EDGELINE_BAUD", "921600")
+    assert main(["shot"]) == 0
+    assert main(["shot", "-p", "COM3", "-b", "57600"]) == 0
+    monkeypatch.delenv("EDGELINE_BAUD")
+    assert main(["shot"]) == 0
+    assert opened_at == [("COM7", 921600), ("COM3", 57600), ("COM7", 115200)]
+    monkeypatch.setenv("EDGELINE_BAUD", "fast")
+    capsys.readouterr()
+    with pytest.raises(SystemExit) as stopped:
+        main(["shot"])
+    assert stopped.value.code == 2
+    assert "'EDGELINE_BAUD=fast' is no whole number above 0" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["record", "shot", "view", "info", "bench", "verify"])
+def test_headless_goes_everywhere(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A script may say --headless, --timeout and --json to whatever it calls."""
+    monkeypatch.chdir(tmp_path)
+    write_recording(tmp_path / "a.elrec", 5)
+    more = {"record": ["-o", "a.gif"], "verify": ["a.crc", "--update"]}.get(command, [])
+    assert main([command, *more, "-p", "a.elrec", "--headless", "--timeout", "5", "--json"]) == 0
+
+
+def test_a_rate_that_cannot_be_had_is_told_in_one_line(edgeline: Edgeline) -> None:
+    with PtyDevice(FakeDevice(max_baud=0)) as served:
+        shot = edgeline("shot", "-p", served.port, "--fast", "230400")
+    assert shot.returncode == 0
+    assert shot.stderr.count("\n") == 1
+    assert "its link's rate cannot be changed" in shot.stderr
+
+
+COMMANDS = ["list", "info", "view", "record", "export", "shot", "replay", "cut", "verify", "bench", "convert", "budget"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main([command, "--help"])
+    assert stopped.value.code == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.startswith(f"usage: edgeline {command}")
+    if command not in ("convert", "budget"):
+        assert "exit codes: 0 done; 1 verify found a difference; 2 bad command line or file; 3 no device" in said

@@ -26,8 +26,9 @@ def test_controls_that_are_set_early_go_ahead_of_start() -> None:
     talk.session.input(Control.SCENE, 2)
     talk.session.input(Control.FRAME, 9)
     talk.run(5)
-    assert inputs_and_starts(talk.device) == [Input(1, 2), Input(2, 9), Start(2)]
+    assert inputs_and_starts(talk.device) == [Input(2, 5, 1), Input(1, 2, 2), Input(2, 9, 3), Start(2)]
     assert len(talk.frames) > 3
+    assert all(frame.shows_inputs for frame in talk.frames)
 
 
 def test_controls_that_are_set_later_go_at_once() -> None:
@@ -36,40 +37,62 @@ def test_controls_that_are_set_later_go_at_once() -> None:
     talk.session.input(Control.PAUSE, 1)
     talk.session.input(200, -(2**31))
     talk.step()
-    assert inputs_and_starts(talk.device) == [Start(2), Input(3, 1), Input(200, -(2**31))]
+    assert inputs_and_starts(talk.device) == [Start(2), Input(3, 1, 1), Input(200, -(2**31), 2)]
 
 
-def test_a_device_that_was_started_anew_is_told_again() -> None:
+def test_a_device_that_was_started_anew_is_told_again_step_excepted() -> None:
     talk = Talk()
     talk.session.input(Control.SCENE, 2)
     talk.run(5)
     talk.session.input(Control.PAUSE, 1)
+    talk.session.input(Control.STEP, 5)
+    talk.session.input(Control.VIEW, 1)
+    talk.session.input(Control.SCENE, 3)
     talk.run(5)
     talk.device.commands.clear()
     talk.device.reboot(99, talk.now)
     talk.run(5)
-    assert inputs_and_starts(talk.device) == [Input(1, 2), Input(3, 1), Start(2)]
+    assert inputs_and_starts(talk.device) == [Input(3, 1, 1), Input(13, 1, 2), Input(1, 3, 3), Start(2)]
 
 
-def test_silence_alone_repeats_no_control() -> None:
+def test_another_program_after_the_restart_is_told_what_it_knows() -> None:
     talk = Talk()
-    talk.session.input(Control.FRAME, 7)
+    talk.session.input(Control.SCENE, 2)
+    talk.session.input(Control.VIEW, 1)
     talk.run(5)
-    talk.device.limit = 0
-    talk.run(200)
-    assert inputs_and_starts(talk.device)[:2] == [Input(2, 7), Start(2)]
-    assert set(inputs_and_starts(talk.device)[2:]) == {Start(2)}
+    talk.device.commands.clear()
+    talk.device.controls = 1 << Control.SCENE
+    talk.device.reboot(99, talk.now)
+    talk.run(5)
+    assert inputs_and_starts(talk.device) == [Input(1, 2, 1), Start(2)]
 
 
-def test_after_silence_a_scene_that_stands_still_is_told_again() -> None:
+def test_silence_repeats_no_control() -> None:
     talk = Talk()
     talk.session.input(Control.FRAME, 7)
     talk.session.input(Control.PAUSE, 1)
     talk.run(5)
-    talk.device.commands.clear()
     talk.device.limit = 0
     talk.run(200)
-    assert inputs_and_starts(talk.device)[:3] == [Input(2, 7), Input(3, 1), Start(2)]
+    assert talk.device.taken == [(2, 7), (3, 1)]
+    assert inputs_and_starts(talk.device)[:3] == [Input(2, 7, 1), Input(3, 1, 2), Start(2)]
+    assert set(inputs_and_starts(talk.device)[3:]) == {Start(2)}
+
+
+def test_a_control_that_the_device_does_not_know_is_named() -> None:
+    early = Talk(FakeDevice(controls=0b1110))
+    early.session.input(Control.VIEW, 2)
+    refusals = [event for event in early.run(20) if isinstance(event, Refused)]
+    assert [str(refusal.error) for refusal in refusals] == ["fake board, edgeline 0.1.0: has no control VIEW"]
+    late = Talk(FakeDevice(controls=0b1110))
+    late.run(5)
+    late.session.input(Control.PAUSE, 1)
+    late.session.input(128, 1)
+    for control, name in ((Control.VIEW, "VIEW"), (77, "77")):
+        with pytest.raises(DeviceError, match=f"has no control {name}$"):
+            late.session.input(control, 2)
+    late.run(5)
+    assert late.device.taken == [(3, 1), (128, 1)]
 
 
 def test_a_device_that_takes_no_input_gets_none() -> None:
@@ -102,10 +125,14 @@ def test_the_library_names_controls() -> None:
     with PtyDevice(device) as served, package.open(served.port) as link:
         link.control("scene", 3)
         link.control("pause", 1)
-        next(iter(link))
-        with pytest.raises(EdgelineError, match="no control 'zoom'"):
-            link.control("zoom", 1)
-    assert inputs_and_starts(device)[:3] == [Input(1, 3), Input(3, 1), Start(2)]
+        assert next(iter(link)).shows_inputs
+        link.control("pan_x", -7)
+        link.control(200, 5)
+        assert link.next_frame(settled=True).shows_inputs
+        assert device.taken == [(1, 3), (3, 1), (8, -7), (200, 5)]
+        with pytest.raises(EdgelineError, match=r"no control 'zoomed': there are scene, frame, .*, view; others have"):
+            link.control("zoomed", 1)
+    assert inputs_and_starts(device)[:3] == [Input(1, 3, 1), Input(3, 1, 2), Start(2)]
 
 
 def test_the_commands_set_controls(edgeline: Edgeline, tmp_path: Path) -> None:
@@ -114,7 +141,7 @@ def test_the_commands_set_controls(edgeline: Edgeline, tmp_path: Path) -> None:
         shot = edgeline("shot", "-p", served.port, "--scene", "4", "--frame", "0", "--pause")
         record = edgeline("record", "-p", served.port, "--frames", "1", "-o", "a.png", "--frame", "10")
     assert (shot.returncode, record.returncode) == (0, 0)
-    assert inputs_and_starts(device) == [Input(1, 4), Input(2, 0), Input(3, 1), Start(2), Input(2, 10), Start(2)]
+    assert device.taken == [(3, 1), (1, 4), (2, 0), (2, 10)]
     assert {path.name for path in tmp_path.iterdir()} == {"shot.png", "a.png"}
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from edgeline import framing, protocol
-from edgeline.protocol import Ack, Key, Ping, Start, Stop
+from edgeline.errors import DeviceError, EdgelineError
+from edgeline.protocol import Ack, Ping, Start, Stop
 from edgeline.session import Connected, Damage, Frame, Log, Refused, Session, Stalled, State
 from fake_device import FakeDevice, Faults, bars
 from talk import Talk
@@ -102,26 +102,14 @@ def test_a_stream_that_starts_in_the_middle() -> None:
     assert all(np.array_equal(frame.picture, bars()(frame.number)) for frame in late.frames)
 
 
-def test_a_gap_in_seq_asks_for_all_lines_once() -> None:
+def test_a_gap_in_seq_is_told_and_repaired() -> None:
     talk = Talk()
     talk.run(5)
     talk.device.faults = Faults(drop=1.0, last=1)
     events = talk.run(10)
     assert len([event for event in events if isinstance(event, Damage)]) >= 1
-    assert [body for body in talk.device.commands if isinstance(body, Key)] == [Key(0, 32)]
     assert np.array_equal(talk.frames[-1].picture, bars()(talk.frames[-1].number))
     assert len(talk.frames) >= 11
-
-
-def test_a_lost_log_is_told_and_repaired_at_once() -> None:
-    """No band is missing, but the host cannot know that: a gap alone is reason enough."""
-    talk = Talk(FakeDevice(limit=0))
-    talk.run(3)
-    talk.device.faults = Faults(drop=1.0, last=1)
-    talk.device.send(protocol.Log("lost"))
-    talk.device.send(protocol.Log("found"))
-    assert [type(event) for event in talk.step()] == [Damage, Log]
-    assert talk.device.commands[-1] == Key(0, 32)
 
 
 def test_a_wrong_digest_is_no_frame() -> None:
@@ -182,12 +170,35 @@ def test_all_credits_lost_begins_anew_after_silence() -> None:
 
 def test_silence_is_waited_for_longer_each_time() -> None:
     talk = Talk()
-    talk.run(5)
+    talk.run(60)
     talk.device.limit = 0
-    talk.run(2000)
-    gaps = [round(event.seconds) for event in talk.events if isinstance(event, Stalled)]
-    assert gaps[:2] == [2, 4]
-    assert all(later >= earlier for earlier, later in pairwise(gaps))
+    talk.run(4000)
+    gaps = [round(event.seconds, 1) for event in talk.events if isinstance(event, Stalled)]
+    assert gaps[:6] == [0.5, 1.0, 2.0, 4.0, 8.0, 16.0]
+    assert set(gaps[6:]) == {16.0}
+    talk.device.limit = None
+    while not any(isinstance(event, Frame) for event in talk.step()):
+        pass
+    talk.run(60)
+    talk.device.limit = 0
+    stalls = [event.seconds for event in talk.run(100) if isinstance(event, Stalled)]
+    assert stalls[0] < 1, "what was in vain is forgotten when frames come"
+
+
+def test_a_device_that_was_not_met_long_enough_to_know_its_pauses_has_two_seconds() -> None:
+    talk = Talk(FakeDevice(limit=1))
+    talk.run(1000)
+    first = next(event for event in talk.events if isinstance(event, Stalled))
+    assert first.seconds == pytest.approx(2.02)
+
+
+def test_a_device_that_sends_now_and_then_is_given_its_time() -> None:
+    talk = Talk()
+    run = talk.device.run_at_rates
+    talk.device.run_at_rates = lambda now: run(now) if int(now * 50) % 20 == 0 else []  # type: ignore[method-assign]
+    talk.run(2000)  # a frame every 0.4 s
+    assert not [event for event in talk.events if isinstance(event, Stalled)]
+    assert len(talk.frames) > 90
 
 
 def test_a_restarted_device_is_met_again() -> None:
@@ -213,12 +224,81 @@ def test_a_device_that_restarts_with_another_size() -> None:
     assert talk.frames[-1].picture.shape == (10, 20)
 
 
+def test_a_same_device_with_another_size_is_met_anew() -> None:
+    talk = Talk(FakeDevice(limit=3))
+    talk.run(5)
+    talk.device.width, talk.device.height = 10, 8
+    talk.device._hello()
+    talk.run(1)
+    assert talk.device.commands[-1] == Start(2)
+    assert talk.session.hello is not None
+    assert talk.session.hello.width == 10
+
+
 def test_another_major_version_is_said_once_and_ends_it() -> None:
     talk = Talk(FakeDevice(major=2))
     events = talk.run(200)
     assert [type(event) for event in events] == [Refused]
-    assert "version 2.3" in str(events[0].error)  # type: ignore[union-attr]
-    assert talk.device.commands == [Ping()]
+    assert str(events[0].error) == (  # type: ignore[union-attr]
+        "the device speaks version 2.3 of the wire, this host 1.2: update the host"
+    )
+    assert talk.device.commands == [Ping(1, 2)]
+
+
+def test_a_host_that_did_not_listen_does_not_call_it_silence() -> None:
+    """A debugger, a slow disk: what came meanwhile is read first, and the device answers at once."""
+    talk = Talk()
+    talk.run(5)
+    for pause in (1.5, 5.0, 60.0):
+        frames = len(talk.frames)
+        talk.step(pause)
+        talk.run(10)
+        assert len(talk.frames) > frames + 5
+    assert not [event for event in talk.events if isinstance(event, Stalled | Damage)]
+
+
+def test_a_frame_from_before_start_is_neither_damage_nor_an_answer() -> None:
+    """The device was streaming to the host before this one, and was not through with it when START was sent."""
+    talk = Talk()
+    talk.run(5)
+    late = Talk(talk.device, now=talk.now)
+    late.session.tick(late.now)
+    late.device.receive(late.session.bytes_to_send(), late.now)
+    late.device.credits = 2
+    wire = late.device.run(late.now)  # HELLO, and a frame with what has changed
+    late.device.commands.clear()
+    late.session.receive(wire, late.now)
+    late.run(10)
+    assert not [event for event in late.events if isinstance(event, Damage)]
+    assert late.device.commands[0] == Start(2)
+    assert not [body for body in late.device.commands if isinstance(body, protocol.Key)]
+    acks = [body.frame for body in late.device.commands if isinstance(body, Ack)]
+    assert acks == [frame.number for frame in late.frames]
+
+
+def test_one_way_nothing_is_said_and_silence_means_nothing() -> None:
+    talk = Talk(session=Session(one_way=True))
+    talk.device.streaming, talk.device.credits = True, 200
+    talk.device._hello()
+    talk.run(20)
+    talk.device.limit = 0
+    talk.run(500)
+    talk.device._hello()
+    talk.device.limit = None
+    talk.device.streaming, talk.device.credits = True, 200
+    talk.run(20)
+    assert talk.device.commands == []
+    assert talk.session.counts.bytes_sent == 0
+    assert len(talk.frames) == 40
+    assert [type(event) for event in talk.events] == [Connected] + [Frame] * 40
+    with pytest.raises(DeviceError, match="one-way"):
+        talk.session.input(1, 1)
+
+
+@pytest.mark.parametrize(("fps", "fast"), [(-1, None), (65536, None), (0, -1), (0, 2**32)])
+def test_numbers_that_do_not_fit_the_wire_are_refused(fps: int, fast: int | None) -> None:
+    with pytest.raises(EdgelineError, match=r"frames per second|no rate"):
+        Session(fps=fps, fast=fast)
 
 
 def test_logs_and_unknown_types_pass_and_count() -> None:
@@ -231,6 +311,14 @@ def test_logs_and_unknown_types_pass_and_count() -> None:
     talk.device._seq = talk.device._seq + 1 & 0xFF
     talk.device.text(framing.encode(packet))
     assert not [event for event in talk.run(5) if isinstance(event, Damage)]
+
+
+def test_what_a_device_says_is_cut_where_it_is_endless() -> None:
+    talk = Talk()
+    talk.run(3)
+    talk.device.send(protocol.Log("ab" * 20_000))
+    talk.device.text(b"cd" * 20_000 + b"\0")
+    assert [event.text for event in talk.run(1) if isinstance(event, Log)] == ["ab" * 2048, "cd" * 2048]
 
 
 @pytest.mark.parametrize("order", [[(8, 8), (0, 8)], [(0, 8), (7, 8)], [(30, 3)], [(2040, 255)]])

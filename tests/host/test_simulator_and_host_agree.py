@@ -1,6 +1,10 @@
 """The real simulator over its real links: every frame of the stream is, pixel for pixel, what `render` draws.
 
 Needs the environment variable EDGELINE_SIM, the path of edgeline-sim. Skipped without it, a failure in CI.
+
+The frames per second of the flat-shaded demo over a UART at 921,600 baud, by the throttled pty:
+
+    EDGELINE_SIM=build/sim/edgeline-sim python -m pytest tests/host/test_simulator_and_host_agree.py -k baud -s
 """
 
 from __future__ import annotations
@@ -24,6 +28,17 @@ from edgeline.colour import to_rgb
 from edgeline.protocol import COUNTERS
 
 FRAMES = 12
+
+FLAT_SCENE = "solid"
+"""One colour per face, 320x240."""
+
+FRAMES_PER_S = 24.0
+"""What a raw UART at FAST_BAUD carries of it at the least."""
+
+FIRST_BAUD, FAST_BAUD = 115200, 921600
+BITS_PER_BYTE = 10
+QUEUE_BYTES = 1024
+"""Of the simulator's UART: the host has them early by as much."""
 
 
 @contextmanager
@@ -134,3 +149,56 @@ def test_a_second_start_begins_anew(simulator: str, scenes: list[str]) -> None:
         for _ in range(5):
             with package.open(port) as link:
                 assert link.next_frame(10).picture.shape == (link.hello.height, link.hello.width)
+
+
+def test_at_921600_baud_the_flat_scene_goes_at_24_frames_per_second(simulator: str) -> None:
+    """By the device's own clock and by its bytes. A machine that is busy holds the simulator up, which a UART's wire
+    would not do, so the best second of eight counts; and what the link takes is never more than the rate allows."""
+    with streaming(simulator, FLAT_SCENE, "--pty", "--baud", str(FIRST_BAUD)) as port, package.open(port) as link:
+        assert (link.hello.width, link.hello.height) == (320, 240)
+        assert link.hello.baud == FIRST_BAUD
+        slow = [link.next_frame(10) for _ in range(4)]
+        assert link.request_baud(FAST_BAUD) == FAST_BAUD
+        link.next_frame(10)  # the first frame has all lines
+        frames = [link.next_frame(10) for _ in range(8 * int(FRAMES_PER_S))]
+        assert link.session.counts.damaged == 0
+    ends = np.array([frame.end.time_us for frame in frames], np.uint32)
+    seconds = np.diff(ends).astype(np.float64) / 1e6  # modulo 2^32
+    sizes = np.array([frame.end.wire_bytes for frame in frames])
+    window = int(FRAMES_PER_S)
+    best = max(window / seconds[at : at + window].sum() for at in range(len(seconds) - window))
+    computed = FAST_BAUD / BITS_PER_BYTE / sizes.mean()
+    print(
+        f"{sizes.mean():.0f} bytes per frame, {computed:.1f} frames/s at most by bytes; "
+        f"measured {1 / seconds.mean():.1f} in the mean, {best:.1f} in the best second"
+    )
+    assert computed >= FRAMES_PER_S
+    assert best >= FRAMES_PER_S
+    most = FAST_BAUD / BITS_PER_BYTE * seconds.sum() + QUEUE_BYTES
+    assert sizes[:-1].sum() <= most
+    slow_s = (slow[-1].end.time_us - slow[1].end.time_us) % 2**32 / 1e6
+    slow_bytes = sum(frame.end.wire_bytes for frame in slow[1:-1])
+    assert slow_bytes <= FIRST_BAUD / BITS_PER_BYTE * slow_s + QUEUE_BYTES
+
+
+def test_roll_never_waits_and_shows_what_was_sent(simulator: str, tmp_path: Path) -> None:
+    """Over a link that is far too slow for whole frames: what is proven is made of lines of the scene's frames."""
+    with (
+        streaming(simulator, "room", "--pty", "--size", "96x64", "--baud", str(FIRST_BAUD)) as port,
+        package.open(port, mode="roll") as link,
+    ):
+        frames = [link.next_frame(20) for _ in range(40)]
+        assert link.session.counts.damaged == 0
+    last = frames[-1].number
+    raw = tmp_path / "frames.rgb565"
+    command = [simulator, "render", "--scene", "room", "--size", "96x64", "--frames", str(last + 1), "--raw", str(raw)]
+    subprocess.run(command, check=True, timeout=60)
+    truth = np.fromfile(raw, PIXEL).reshape(last + 1, 64, 96)
+    assert any(frame.mixed for frame in frames)
+    for frame in frames:
+        drawn = truth[: frame.number + 1]
+        if not frame.mixed:
+            assert np.array_equal(frame.picture, drawn[-1])
+        assert (drawn == frame.picture).all(axis=2).any(axis=0).all(), "a line that was never drawn"
+    # A whole frame takes this link about a second. Most frames, because a busy machine may hold up any of them.
+    assert np.median([frame.end.encode_us for frame in frames]) < 50_000, "it waits for the link"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import threading
+import time
 from dataclasses import dataclass
 
 import pytest
 
 from edgeline import cli, discovery
 from edgeline.errors import DeviceError
+from edgeline.transport import Transport
 from fake_device import FakeDevice, PtyDevice
 
 
@@ -25,7 +28,7 @@ class Listed:
 
 @pytest.fixture(autouse=True)
 def short_probe(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(discovery.probe, "__defaults__", (1.0,))
+    monkeypatch.setattr(discovery, "PROBE_TIMEOUT_S", 1.0)
 
 
 def computer_with(monkeypatch: pytest.MonkeyPatch, *ports: Listed) -> None:
@@ -38,15 +41,37 @@ def test_the_one_that_answers(monkeypatch: pytest.MonkeyPatch) -> None:
         assert discovery.find(115200) == board.port
 
 
-def test_ports_that_are_not_usb_are_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ports_that_are_not_usb_are_asked_where_no_usb_port_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    with PtyDevice(FakeDevice()) as board, PtyDevice(FakeDevice()) as other:
+        computer_with(monkeypatch, Listed(board.port), Listed(other.port, vid=None))
+        assert discovery.find(115200) == board.port
+        assert other.device.commands == []
+        computer_with(monkeypatch, Listed("/dev/ttyABSENT"), Listed(other.port, vid=None))
+        assert discovery.find(115200) == other.port
+
+
+def test_a_port_that_never_opens_holds_up_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    connect = discovery.connect
+
+    def slow(port: str, baud: int) -> Transport:
+        if port == "/dev/ttySLOW":
+            threading.Event().wait()
+        return connect(port, baud)
+
+    monkeypatch.setattr(discovery, "connect", slow)
     with PtyDevice(FakeDevice()) as board:
-        computer_with(monkeypatch, Listed(board.port, vid=None))
-        with pytest.raises(DeviceError, match="no USB serial port"):
-            discovery.find(115200)
-        assert board.device.commands == []
+        began = time.monotonic()
+        assert [hello and hello.target for hello in discovery.probe_all(["/dev/ttySLOW", board.port], 115200, 0.3)] == [
+            None,
+            "fake board",
+        ]
+    assert time.monotonic() - began < 5
 
 
 def test_none_and_two_are_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    computer_with(monkeypatch)
+    with pytest.raises(DeviceError, match="no serial port found: plug the board in"):
+        discovery.find(115200)
     computer_with(monkeypatch, Listed("/dev/ttyABSENT"))
     with pytest.raises(DeviceError, match="no Edgeline answers on /dev/ttyABSENT at 9600 baud"):
         discovery.find(9600)
