@@ -68,6 +68,17 @@ static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
 #endif
 }
 
+/* floor(a * b / 2^32). */
+static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    /* a modulo 2^32 is a + 2^32 for a < 0. */
+    return (int32_t)((uint32_t)(el_product_u64((uint32_t)a, b) >> 32) - (a < 0 ? b : 0U));
+#else
+    return (int32_t)(((int64_t)a * b) >> 32);
+#endif
+}
+
 /* a * b. */
 static inline int64_t el_product_i32_i16(int32_t a, int16_t b)
 {

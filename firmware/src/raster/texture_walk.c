@@ -46,26 +46,26 @@ static uint32_t whole(uint64_t w_q32)
     return w == 0 ? 1U : w;
 }
 
-/* base + (numerator << shift) / w, Q16 texels, rounded down: the numerator with all of its fraction over the upper 32 bits
- * of 1/w, which `w` has normalised by `w_shift`. At covered pixels the quotient lies within the corners' range, below
- * 2^28, so numerator << (shift + w_shift - 32), which is the quotient times 32 bits, stays below 2^60. */
-static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, const el_divisor *w, int w_shift)
+/* base + 2^shift U / W in Q16 texels, too low by less than 2 units. At covered pixels |U| <= W < 2^31, so with both moved up by
+ * W's leading zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with the upper 32 bits
+ * of 2^63 / W is 2^30 U / W, off by less than 3: less than a unit of the result, whose shift is at most 27. */
+static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
-    const int total = shift + w_shift - 32;
-    const int64_t numerator = total >= 0 ? (int64_t)(numerator_q32 << total) : (int64_t)numerator_q32 >> -total;
-    return (int32_t)((uint32_t)base_q16 + (uint32_t)el_divide_floor_i64(numerator, w));
+    const int32_t upper = (int32_t)((int64_t)(u_q32 << (w_shift - 1U)) >> 32);
+    const int32_t ratio_q30 = el_multiply_high_i32_u32(upper, reciprocal);
+    return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
 
-/* u and v `pixels` after the walk's position. */
-static void exact(const el_texture_walk *walk, const el_triangle *triangle, uint32_t pixels, int32_t *u_q16,
-                  int32_t *v_q16)
+/* u and v where the planes' values are. */
+static inline void find_knot(el_texture_walk *walk)
 {
-    const el_perspective *const p = &triangle->perspective;
-    const uint64_t w_q32 = walk->w + p->w.dx * pixels;
-    const int w_shift = w_q32 == 0 ? 0 : __builtin_clzll(w_q32);
-    const el_divisor w = el_divisor_make((uint32_t)((w_q32 << w_shift) >> 32) | (1U << 31));
-    *u_q16 = knot(walk->u + p->u.dx * pixels, p->u_shift, p->u_base_q16, &w, w_shift);
-    *v_q16 = knot(walk->v + p->v.dx * pixels, p->v_shift, p->v_base_q16, &w, w_shift);
+    const el_perspective *const p = walk->planes;
+    const uint32_t w = (uint32_t)(walk->w >> 32);
+    const unsigned w_shift = w == 0 ? 31U : (unsigned)__builtin_clz(w);
+    const el_divisor divisor = el_divisor_make((uint32_t)((walk->w << w_shift) >> 32) | (1U << 31));
+    const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
+    walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
+    walk->next_v_q16 = knot(walk->v, w_shift, reciprocal, p->v_shift, p->v_base_q16);
 }
 
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
@@ -88,13 +88,12 @@ static bool is_steep(const el_plane *plane)
 void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t skipped)
 {
     const el_perspective *const p = &triangle->perspective;
+    walk->planes = p;
     walk->w = p->w.value + el_plane_times(p->w.dx, skipped);
     walk->u = p->u.value + el_plane_times(p->u.dx, skipped);
     walk->v = p->v.value + el_plane_times(p->v.dx, skipped);
     walk->length = LENGTHS - 1;
-    exact(walk, triangle, 0, &walk->u_q16, &walk->v_q16);
-    walk->next_u_q16 = walk->u_q16;
-    walk->next_v_q16 = walk->v_q16;
+    find_knot(walk);
     walk->u_step_q16 = 0;
     walk->v_step_q16 = 0;
 
@@ -117,12 +116,32 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     }
 }
 
-int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left)
+/* difference / length, rounded down: a product with 2^32 / length rounded up, which is exact for differences below
+ * 2^26, 1,024 texels, and one unit too much at most beyond. */
+static inline int32_t step_of(int32_t difference, int32_t length)
 {
+    static const uint32_t reciprocals[EL_MAX_PIECE + 1] = {
+        0, 0, 2147483648U, 1431655766U, 1073741824U, 858993460U, 715827883U, 613566757U, 536870912U, 477218589U,
+        429496730U, 390451573U, 357913942U, 330382100U, 306783379U, 286331154U, 268435456U, 252645136U, 238609295U,
+        226050911U, 214748365U, 204522253U, 195225787U, 186737709U, 178956971U, 171798692U, 165191050U, 159072863U,
+        153391690U, 148102321U, 143165577U, 138547333U, 134217728U, 130150525U, 126322568U, 122713352U, 119304648U,
+        116080198U, 113025456U, 110127367U, 107374183U, 104755300U, 102261127U, 99882961U, 97612894U, 95443718U,
+        93368855U, 91382283U, 89478486U, 87652394U, 85899346U, 84215046U, 82595525U, 81037119U, 79536432U,
+        78090315U, 76695845U, 75350304U, 74051161U, 72796056U, 71582789U, 70409300U, 69273667U, 68174085U,
+        67108864U,
+    };
+    return length == 1 ? difference : el_multiply_high_i32_u32(difference, reciprocals[length]);
+}
+
+int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
+{
+    walk->u_q16 = walk->next_u_q16;
+    walk->v_q16 = walk->next_v_q16;
     if (left == 1) {
         return 1;
     }
-    const uint64_t w_step = triangle->perspective.w.dx;
+    const el_perspective *const p = walk->planes;
+    const uint64_t w_step = p->w.dx;
     const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
     const int32_t most = left - 1;
@@ -141,7 +160,8 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
             continue;
         }
         const int32_t pixels = el_min_i32(lengths[i], most);
-        const int32_t least_q8 = falls ? log2_floor_q8(whole(walk->w + w_step * (uint64_t)(int64_t)pixels)) : w_here_q8;
+        const int32_t least_q8 =
+            falls ? log2_floor_q8(whole(walk->w + el_multiply_u64(w_step, pixels))) : w_here_q8;
         if (least_q8 >= walk->limit_q8 + length_q8[i]) {
             length = pixels;
             break;
@@ -149,18 +169,11 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle
     }
     walk->length = (uint8_t)(i < 0 ? 0 : i);
 
-    exact(walk, triangle, (uint32_t)length, &walk->next_u_q16, &walk->next_v_q16);
-    walk->u_step_q16 = (walk->next_u_q16 - walk->u_q16) / length;
-    walk->v_step_q16 = (walk->next_v_q16 - walk->v_q16) / length;
+    walk->w += el_multiply_u64(w_step, length);
+    walk->u += el_multiply_u64(p->u.dx, length);
+    walk->v += el_multiply_u64(p->v.dx, length);
+    find_knot(walk);
+    walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, length);
+    walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, length);
     return length;
-}
-
-void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length)
-{
-    const uint64_t pixels = (uint64_t)(int64_t)length;
-    walk->w += triangle->perspective.w.dx * pixels;
-    walk->u += triangle->perspective.u.dx * pixels;
-    walk->v += triangle->perspective.v.dx * pixels;
-    walk->u_q16 = walk->next_u_q16;
-    walk->v_q16 = walk->next_v_q16;
 }
