@@ -5,13 +5,25 @@
 #include "base/fixed.h"
 
 /* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
- * one, a short routine elsewhere. */
+ * one, the paper's table elsewhere. */
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+static inline uint32_t first_guess(uint32_t d10)
+{
+    return el_first_guesses[d10 - 512U];
+}
+#else
+static inline uint32_t first_guess(uint32_t d10)
+{
+    return ((1U << 24) - (1U << 14) + (1U << 9)) / d10;
+}
+#endif
+
 static uint32_t reciprocal_word(uint32_t d)
 {
     const uint32_t d10 = d >> 22;        /* 512..1023 */
     const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
     const uint32_t d31 = (d >> 1) + (d & 1U);
-    const uint32_t v0 = ((1U << 24) - (1U << 14) + (1U << 9)) / d10;                     /* below 2^15 */
+    const uint32_t v0 = first_guess(d10);                                                /* below 2^15 */
     const uint32_t v1 = (v0 << 4) - (uint32_t)(el_product_u64(v0 * v0, d21) >> 32) - 1U; /* v0^2 < 2^30 */
     const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
     const uint32_t v2 = (v1 << 15) + (uint32_t)(el_product_u64(v1, e) >> 33);

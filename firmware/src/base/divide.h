@@ -72,6 +72,11 @@ static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
     return n < 0 ? 0 - quotient : quotient;
 }
 
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+/* floor((2^24 - 2^14 + 2^9) / (512 + i)). */
+extern const uint16_t el_first_guesses[512];
+#endif
+
 /* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };
 #if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)

@@ -17,7 +17,6 @@ typedef struct drawing {
     el_renderer *renderer;
     const el_mesh *mesh;
     el_draw_state state;
-    el_transform transform;
     bool direct;
     bool perspective_records;
     uint32_t capacity; /* vertices in the cache */
@@ -26,7 +25,7 @@ typedef struct drawing {
 
 static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
 {
-    el_transform_vertex(&d->transform, d->mesh->positions[index], screen);
+    el_transform_vertex(&d->state.transform, d->mesh->positions[index], screen);
     d->renderer->stats.vertices++;
 }
 
@@ -81,15 +80,19 @@ static el_screen_vertex vertex_at(drawing *d, uint16_t index)
     return slot->vertex;
 }
 
-/* The list is full. Gives up the last quarter of the pass' bands, or draws the list where there is one band only.
- * Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
+/* The list is full. Makes it thin; where it is that already, gives up the last quarter of the pass' bands; where there is
+ * one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;
     el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);
+    const int32_t lines = renderer->config.band_lines;
+    if (bands > 1 && !renderer->list.is_thin) {
+        el_list_make_thin(&renderer->list, renderer->pass_begin * lines);
+        return false;
+    }
     if (bands > 1) {
         renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 3 / 4);
-        const int32_t lines = renderer->config.band_lines;
         el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
         return false;
     }
@@ -130,6 +133,17 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
     }
 }
 
+static el_record_kind record_kind(const drawing *d, bool is_cut)
+{
+    if (is_cut) {
+        return EL_RECORD_CLIPPED;
+    }
+    if (d->renderer->list.is_thin) {
+        return EL_RECORD_THIN;
+    }
+    return d->perspective_records ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
+}
+
 /* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. */
 static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3], const el_clip_corner *const cut[3])
 {
@@ -163,21 +177,25 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
     const int32_t lines = renderer->config.band_lines;
     const int32_t pass_row = renderer->pass_begin * lines;
     const int32_t row = el_max_i32(y_begin, pass_row);
-    const el_record_kind kind = cut != NULL              ? EL_RECORD_CLIPPED
-                                : d->perspective_records ? EL_RECORD_PERSPECTIVE
-                                                         : EL_RECORD_PLAIN;
+    el_record_kind kind;
     el_record *record = NULL;
     while (record == NULL) {
         if (y_end <= pass_row || row >= renderer->pass_end * lines) {
             stats->triangles_other++;
             return;
         }
+        kind = record_kind(d, cut != NULL);
         record = el_list_append(&renderer->list, &d->state, kind, row);
         if (record == NULL && make_room(renderer)) {
             place_vertices(d);
         }
     }
     stats->triangles_listed++;
+    if (kind == EL_RECORD_THIN) {
+        record->index = index;
+        record->at.row = (int16_t)y_begin;
+        return;
+    }
     fill_plain(record, index, v);
     if (kind != EL_RECORD_PLAIN) {
         fill_perspective(record, v);
@@ -235,7 +253,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     el_clip_corner corners[EL_CLIP_MAX_VERTICES];
     el_clip_vertex clip[3];
     for (unsigned i = 0; i < 3; i++) {
-        clip[i] = el_transform_position(&d->transform, d->mesh->positions[vertices[i]]);
+        clip[i] = el_transform_position(&d->state.transform, d->mesh->positions[vertices[i]]);
     }
     const bool turned = coloured && material->light != NULL && (material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
                         seen_from_back(&d->state, clip);
@@ -253,7 +271,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
             }
         }
     }
-    const unsigned count = el_clip_polygon(&d->transform, corners, 3, codes);
+    const unsigned count = el_clip_polygon(&d->state.transform, corners, 3, codes);
     d->renderer->stats.triangles_clipped++;
     if (count == 0) {
         d->renderer->stats.triangles_outside++;
@@ -261,7 +279,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     }
     el_screen_vertex screen[EL_CLIP_MAX_VERTICES];
     for (unsigned i = 0; i < count; i++) {
-        el_project(&d->transform, &corners[i].position, &screen[i]);
+        el_project(&d->state.transform, &corners[i].position, &screen[i]);
     }
     const unsigned a = fan_root(screen, count);
     for (unsigned i = 2; i < count; i++) {
@@ -322,7 +340,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     }
     renderer->stats.draws++;
     drawing d = {.renderer = renderer, .mesh = mesh};
-    const int visibility = el_transform_make(&d.transform, &renderer->view, mesh, pose);
+    const int visibility = el_transform_make(&d.state.transform, &renderer->view, mesh, pose);
     if (visibility < 0) {
         return (el_status)visibility;
     }
@@ -330,7 +348,9 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         renderer->stats.draws_culled++;
         return EL_OK;
     }
-    d.state = (el_draw_state){.mesh = mesh, .material = material, .mirrored = d.transform.mirrored};
+    d.state.mesh = mesh;
+    d.state.material = material;
+    d.state.mirrored = d.state.transform.mirrored;
     if (material->light != NULL) {
         /* Into model space, by the transposed rotation. */
         for (unsigned i = 0; i < 3; i++) {
@@ -343,7 +363,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         }
     }
     d.perspective_records = material->shading == EL_SHADE_TEXTURED || material->shading == EL_SHADE_TEXTURED_GOURAUD;
-    el_list_end_run(&renderer->list);
+    el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {
         (void)make_room(renderer);
