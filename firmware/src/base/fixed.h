@@ -68,6 +68,18 @@ static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
 #endif
 }
 
+/* a * b, b < 2^16. */
+static inline uint64_t el_product_u32_u16(uint32_t a, uint32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    const uint32_t low = (a & 0xFFFFU) * b;
+    const uint32_t high = (a >> 16) * b + (low >> 16);
+    return (uint64_t)(high >> 16) << 32 | high << 16 | (low & 0xFFFFU);
+#else
+    return (uint64_t)a * b;
+#endif
+}
+
 /* floor(a * b / 2^32). */
 static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 {
@@ -79,15 +91,21 @@ static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 #endif
 }
 
-/* a * b. */
-static inline int64_t el_product_i32_i16(int32_t a, int16_t b)
+/* The sum of three products a[i] * b[i], |a[i]| < 2^29. */
+static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
 {
 #if defined(__ARM_ARCH_6M__)
-    const int32_t high = (a >> 16) * b;
-    const int32_t low = (a & 0xFFFF) * b; /* below 2^16 * 2^15 */
-    return (int64_t)high * 65536 + low;
+    /* a = 2^15 high + low, |high| and |low| at most 2^14: each sum is at most 3 * 2^29. */
+    uint32_t high = 0;
+    uint32_t low = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t rest = (int32_t)((uint32_t)a[i] << 17) >> 17;
+        high += (uint32_t)((a[i] - rest) >> 15) * (uint32_t)b[i];
+        low += (uint32_t)rest * (uint32_t)b[i];
+    }
+    return ((int64_t)(int32_t)high * (1 << 15)) + (int32_t)low;
 #else
-    return (int64_t)a * b;
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 #endif
 }
 

@@ -19,14 +19,14 @@ typedef struct drawing {
     el_draw_state state;
     bool direct;
     bool perspective_records;
-    uint32_t capacity; /* vertices in the cache */
+    uint32_t slots; /* of the cache, a power of two */
     void *vertices;    /* el_screen_vertex[] or cached_vertex[] */
 } drawing;
 
-static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
+static void transform_vertices(drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
 {
-    el_transform_vertex(&d->state.transform, d->mesh->positions[index], screen);
-    d->renderer->stats.vertices++;
+    el_transform_vertices(&d->state.transform, &d->mesh->positions[first], count, screen);
+    d->renderer->stats.vertices += count;
 }
 
 /* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
@@ -46,38 +46,36 @@ static void place_vertices(drawing *d)
         bytes = EL_ROUND_UP_8(direct_bytes);
     } else {
         d->direct = false;
-        bytes = (depth_bytes + free_bytes / 8) / 8 * 8;
-        d->capacity = bytes / (uint32_t)sizeof(cached_vertex);
+        bytes = (uint32_t)el_max_i32((int32_t)depth_bytes, (int32_t)(free_bytes / 8)) / 8 * 8;
+        d->slots = 1U << (el_bit_length_u32(bytes / (uint32_t)sizeof(cached_vertex)) - 1);
     }
     const uint32_t beside = bytes > depth_bytes ? bytes - depth_bytes : 0U;
     list->end = renderer->list_bytes - beside;
     d->vertices = list_end + depth_bytes - bytes;
 
     if (d->direct) {
-        el_screen_vertex *const vertices = d->vertices;
-        for (uint32_t i = 0; i < d->mesh->vertex_count; i++) {
-            transform_vertex(d, i, &vertices[i]);
-        }
+        transform_vertices(d, 0, d->mesh->vertex_count, d->vertices);
         return;
     }
     cached_vertex *const cache = d->vertices;
-    for (uint32_t i = 0; i < d->capacity; i++) {
+    for (uint32_t i = 0; i < d->slots; i++) {
         cache[i].index = 0xFFFF;
     }
 }
 
-static el_screen_vertex vertex_at(drawing *d, uint16_t index)
+/* The vertex, at its place among all of them, or in `copy`: its slot in the cache may be taken by its triangle's next. */
+static el_screen_vertex *vertex_at(drawing *d, uint16_t index, el_screen_vertex *copy)
 {
     if (d->direct) {
-        return ((const el_screen_vertex *)d->vertices)[index];
+        return (el_screen_vertex *)d->vertices + index;
     }
-    /* NOLINTNEXTLINE(clang-analyzer-core.*): el_draw saw to it that there is room for two vertices at least. */
-    cached_vertex *const slot = (cached_vertex *)d->vertices + index % d->capacity;
+    cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
     if (slot->index != index) {
         slot->index = index;
-        transform_vertex(d, index, &slot->vertex);
+        transform_vertices(d, index, 1, &slot->vertex);
     }
-    return slot->vertex;
+    *copy = slot->vertex;
+    return copy;
 }
 
 /* The list is full. Makes it thin; where it is that already, gives up the last quarter of the pass' bands; where there is
@@ -101,21 +99,21 @@ static bool make_room(el_renderer *renderer)
     return !was_open;
 }
 
-static void fill_plain(el_record *record, uint16_t index, const el_screen_vertex v[3])
+static void fill_plain(el_record *record, uint16_t index, const el_screen_vertex *const v[3])
 {
     record->index = index;
     for (unsigned i = 0; i < 3; i++) {
-        record->at.points[i] = (el_point){.x = v[i].x, .y = v[i].y, .z = v[i].z};
+        record->at.points[i] = (el_point){.x = v[i]->x, .y = v[i]->y, .z = v[i]->z};
     }
 }
 
-static void fill_perspective(el_record *record, const el_screen_vertex v[3])
+static void fill_perspective(el_record *record, const el_screen_vertex *const v[3])
 {
     el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
     unsigned shifts = 0;
     for (unsigned i = 0; i < 3; i++) {
-        perspective->w[i] = v[i].w;
-        shifts |= (unsigned)v[i].w_shift << (5 * i);
+        perspective->w[i] = v[i]->w;
+        shifts |= (unsigned)v[i]->w_shift << (5 * i);
     }
     perspective->w_shifts = (uint16_t)shifts;
 }
@@ -144,22 +142,24 @@ static el_record_kind record_kind(const drawing *d, bool is_cut)
     return d->perspective_records ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
 }
 
-/* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. */
-static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3], const el_clip_corner *const cut[3])
+/* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. Returns
+ * false when the list is full. */
+static bool try_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
+                         const el_clip_corner *const cut[3])
 {
     el_renderer *const renderer = d->renderer;
     el_stats *const stats = &renderer->stats;
-    const int32_t x[3] = {v[0].x, v[1].x, v[2].x};
-    const int32_t y[3] = {v[0].y, v[1].y, v[2].y};
+    const int32_t x[3] = {v[0]->x, v[1]->x, v[2]->x};
+    const int32_t y[3] = {v[0]->y, v[1]->y, v[2]->y};
 
     const int64_t area = el_doubled_area(x, y);
     if (area == 0) {
         stats->triangles_empty++;
-        return;
+        return true;
     }
     if (el_shows_back(&d->state, area) && (d->state.material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
         stats->triangles_backface++;
-        return;
+        return true;
     }
     const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
     const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
@@ -167,34 +167,30 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
     const int32_t y_end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])));
     if (x_begin >= x_end || y_begin >= y_end) {
         stats->triangles_empty++;
-        return;
+        return true;
     }
     if (x_end <= 0 || x_begin >= renderer->config.width || y_end <= 0 || y_begin >= renderer->config.height) {
         stats->triangles_outside++;
-        return;
+        return true;
     }
 
     const int32_t lines = renderer->config.band_lines;
     const int32_t pass_row = renderer->pass_begin * lines;
     const int32_t row = el_max_i32(y_begin, pass_row);
-    el_record_kind kind;
-    el_record *record = NULL;
-    while (record == NULL) {
-        if (y_end <= pass_row || row >= renderer->pass_end * lines) {
-            stats->triangles_other++;
-            return;
-        }
-        kind = record_kind(d, cut != NULL);
-        record = el_list_append(&renderer->list, &d->state, kind, row);
-        if (record == NULL && make_room(renderer)) {
-            place_vertices(d);
-        }
+    if (y_end <= pass_row || row >= renderer->pass_end * lines) {
+        stats->triangles_other++;
+        return true;
+    }
+    const el_record_kind kind = record_kind(d, cut != NULL);
+    el_record *const record = el_list_append(&renderer->list, &d->state, kind, row);
+    if (record == NULL) {
+        return false;
     }
     stats->triangles_listed++;
     if (kind == EL_RECORD_THIN) {
         record->index = index;
         record->at.row = (int16_t)y_begin;
-        return;
+        return true;
     }
     fill_plain(record, index, v);
     if (kind != EL_RECORD_PLAIN) {
@@ -203,6 +199,23 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
     if (kind == EL_RECORD_CLIPPED) {
         fill_clipped(record, cut);
     }
+    return true;
+}
+
+static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
+                         const el_clip_corner *const cut[3])
+{
+    if (try_triangle(d, index, v, cut)) {
+        return;
+    }
+    /* The vertices' place may be needed. */
+    const el_screen_vertex copies[3] = {*v[0], *v[1], *v[2]};
+    const el_screen_vertex *const kept[3] = {&copies[0], &copies[1], &copies[2]};
+    do {
+        if (make_room(d->renderer)) {
+            place_vertices(d);
+        }
+    } while (!try_triangle(d, index, kept, cut));
 }
 
 /* Which side of the triangle the camera sees, before it is cut: the light needs it. */
@@ -285,7 +298,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     for (unsigned i = 2; i < count; i++) {
         const unsigned b = (a + i - 1) % count;
         const unsigned c = (a + i) % count;
-        const el_screen_vertex fan[3] = {screen[a], screen[b], screen[c]};
+        const el_screen_vertex *const fan[3] = {&screen[a], &screen[b], &screen[c]};
         const el_clip_corner *const cut[3] = {&corners[a], &corners[b], &corners[c]};
         add_triangle(d, index, fan, cut);
     }
@@ -294,21 +307,31 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
 static void draw_triangles(drawing *d)
 {
     el_stats *const stats = &d->renderer->stats;
-    for (uint32_t i = 0; i < d->mesh->triangle_count; i++) {
+    const uint32_t count = d->mesh->triangle_count;
+    for (uint32_t i = 0; i < count; i++) {
         const uint16_t *const vertices = d->mesh->triangles[i];
-        const el_screen_vertex v[3] = {vertex_at(d, vertices[0]), vertex_at(d, vertices[1]), vertex_at(d, vertices[2])};
-        stats->triangles++;
-        if ((v[0].code & v[1].code & v[2].code & EL_CODE_OUTSIDE) != 0) {
+        el_screen_vertex copies[3];
+        el_screen_vertex *v[3];
+        for (unsigned k = 0; k < 3; k++) {
+            v[k] = vertex_at(d, vertices[k], &copies[k]);
+        }
+        if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
             stats->triangles_outside++;
             continue;
         }
-        const uint8_t codes = v[0].code | v[1].code | v[2].code;
+        const unsigned codes = v[0]->code | v[1]->code | v[2]->code;
         if ((codes & EL_CODE_CLIP) != 0) {
-            clip_triangle(d, (uint16_t)i, codes);
-        } else {
-            add_triangle(d, (uint16_t)i, v, NULL);
+            clip_triangle(d, (uint16_t)i, (uint8_t)codes);
+            continue;
         }
+        for (unsigned k = 0; k < 3 && (codes & EL_CODE_LATER) != 0; k++) {
+            if ((v[k]->code & EL_CODE_LATER) != 0) {
+                el_transform_vertex(&d->state.transform, d->mesh->positions[vertices[k]], v[k]);
+            }
+        }
+        add_triangle(d, (uint16_t)i, (const el_screen_vertex *const *)v, NULL);
     }
+    stats->triangles += count;
 }
 
 static el_status check(const el_mesh *mesh, const el_material *material)

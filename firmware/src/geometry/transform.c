@@ -309,14 +309,15 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
         return EL_ERROR_RANGE;
     }
 
-    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
+    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 29: what a core without
+     * long products adds up in 32 bits. Meshes of a unit or two keep up to 31. */
     int64_t rows[9];
     uint64_t all = 0;
     for (unsigned i = 0; i < 9; i++) {
         rows[i] = scale_by(forms[i / 3].exact[i % 3], factors[i / 3], -(exponent + unit_log2 + 31));
         all |= el_abs_u64(rows[i]);
     }
-    const int excess = el_bit_length_u64(all) - 31;
+    const int excess = el_bit_length_u64(all) - EL_ROW_BITS;
     const int drop = excess <= 0 ? 0 : (excess > 30 ? 30 : excess);
     for (unsigned i = 0; i < 9; i++) {
         transform->rows[i / 3][i % 3] = (int32_t)el_shift_i64(rows[i], drop);
@@ -366,16 +367,15 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     return EL_VISIBLE;
 }
 
-static int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
+static inline int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
 {
     /* Three products below 2^46 and an offset below 2^62. */
-    const int32_t *row = transform->rows[i];
-    const int64_t sum = transform->offsets[i] + el_product_i32_i16(row[0], p[0]) + el_product_i32_i16(row[1], p[1]) +
-                        el_product_i32_i16(row[2], p[2]);
-    return (int32_t)(sum >> transform->shift);
+    const uint64_t sum = (uint64_t)(transform->offsets[i] + el_dot_i32_i16(transform->rows[i], p));
+    /* The lower word of sum >> shift, 1 <= shift <= 31. */
+    return (int32_t)((uint32_t)(sum >> 32) << (32 - transform->shift) | (uint32_t)sum >> transform->shift);
 }
 
-el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
+static inline el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
 {
     el_clip_vertex vertex;
     vertex.x = form_value(transform, 0, position);
@@ -383,6 +383,11 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     vertex.d = form_value(transform, 2, position);
     vertex.w = transform->orthographic ? transform->constant_w : vertex.d;
     return vertex;
+}
+
+el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
+{
+    return position_of(transform, position);
 }
 
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
@@ -461,7 +466,8 @@ static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor
     const unsigned s = divisor->shift;
     const uint32_t magnitude = c < 0 ? 0U - (uint32_t)c : (uint32_t)c;
     const uint32_t ratio = (uint32_t)(el_product_u64(magnitude, reciprocal) >> 32);
-    const uint64_t scaled = el_product_u64(ratio, half) + (1ULL << (30U - s));
+    const uint64_t scaled = (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) +
+                            (1U << (30U - s));
     const uint32_t fraction = (uint32_t)scaled << (s + 1U);
     if (fraction == 0 || fraction >= 0U - (half << (s + 2U))) {
         return false;
@@ -519,13 +525,19 @@ static void project_inside(const el_transform *transform, const el_clip_vertex *
 #endif
 }
 
+/* Most vertices are in the view, between near and far: three comparisons. */
+static inline bool is_in_view(const el_transform *transform, const el_clip_vertex *vertex)
+{
+    const uint32_t w = (uint32_t)vertex->w;
+    const uint32_t near = (uint32_t)transform->near;
+    return (uint32_t)vertex->d - near <= (uint32_t)transform->far - near && (uint32_t)vertex->x + w <= 2U * w &&
+           (uint32_t)vertex->y + w <= 2U * w;
+}
+
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
-    const el_clip_vertex vertex = el_transform_position(transform, position);
-    const uint32_t w = (uint32_t)vertex.w;
-    /* Most vertices are in the view, between near and far: three comparisons then. */
-    if ((uint32_t)vertex.d - (uint32_t)transform->near <= (uint32_t)transform->far - (uint32_t)transform->near &&
-        (uint32_t)vertex.x + w <= 2U * w && (uint32_t)vertex.y + w <= 2U * w) {
+    const el_clip_vertex vertex = position_of(transform, position);
+    if (is_in_view(transform, &vertex)) {
         screen->code = 0;
         project_inside(transform, &vertex, screen);
         return;
@@ -533,5 +545,19 @@ void el_transform_vertex(const el_transform *transform, const int16_t position[3
     screen->code = el_outcode(transform, &vertex);
     if ((screen->code & EL_CODE_CLIP) == 0) {
         el_project(transform, &vertex, screen);
+    }
+}
+
+void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
+                           el_screen_vertex *screen)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const el_clip_vertex vertex = position_of(transform, positions[i]);
+        if (is_in_view(transform, &vertex)) {
+            screen[i].code = 0;
+            project_inside(transform, &vertex, &screen[i]);
+        } else {
+            screen[i].code = (uint8_t)(el_outcode(transform, &vertex) | EL_CODE_LATER);
+        }
     }
 }
