@@ -20,8 +20,47 @@ typedef struct el_divisor {
     uint8_t shift;       /* 0..31 */
 } el_divisor;
 
+/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
+ * one, the paper's table elsewhere. */
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+/* floor((2^24 - 2^14 + 2^9) / (512 + i)). */
+extern const uint16_t el_first_guesses[512];
+
+static inline uint32_t el_first_guess(uint32_t d10)
+{
+    return el_first_guesses[d10 - 512U];
+}
+#else
+static inline uint32_t el_first_guess(uint32_t d10)
+{
+    return ((1U << 24) - (1U << 14) + (1U << 9)) / d10;
+}
+#endif
+
+static inline uint32_t el_reciprocal_word(uint32_t d)
+{
+    const uint32_t d10 = d >> 22;        /* 512..1023 */
+    const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
+    const uint32_t d31 = (d >> 1) + (d & 1U);
+    const uint32_t v0 = el_first_guess(d10);                                                /* below 2^15 */
+    const uint32_t v1 = (v0 << 4) - (uint32_t)(el_product_u64(v0 * v0, d21) >> 32) - 1U; /* v0^2 < 2^30 */
+    const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
+    const uint32_t v2 = (v1 << 15) + (uint32_t)(el_product_u64(v1, e) >> 33);
+    /* (v2 + 2^32 + 1) * d / 2^32, modulo 2^32 */
+    const uint32_t high = (uint32_t)((el_product_u64(v2, d) + d) >> 32);
+    return v2 - (high + d);
+}
+
 /* Pre: d >= 1. */
-el_divisor el_divisor_make(uint32_t d);
+static inline el_divisor el_divisor_make(uint32_t d)
+{
+    el_divisor divisor;
+    divisor.shift = (uint8_t)(32 - el_bit_length_u32(d));
+    /* NOLINTNEXTLINE(clang-analyzer-core.*): d >= 1, so the shift is 31 at most. */
+    divisor.normalised = d << divisor.shift;
+    divisor.reciprocal = el_reciprocal_word(divisor.normalised);
+    return divisor;
+}
 
 /* floor((high * 2^32 + low) / normalised); *remainder gets the rest. Pre: high < normalised. */
 static inline uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder)
@@ -71,11 +110,6 @@ static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
     const uint64_t quotient = (uint64_t)whole << 32 | fraction;
     return n < 0 ? 0 - quotient : quotient;
 }
-
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
-/* floor((2^24 - 2^14 + 2^9) / (512 + i)). */
-extern const uint16_t el_first_guesses[512];
-#endif
 
 /* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };

@@ -68,6 +68,12 @@ static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
 #endif
 }
 
+/* floor(a * b / 2^32). */
+static inline uint32_t el_product_high_u32(uint32_t a, uint32_t b)
+{
+    return (uint32_t)(el_product_u64(a, b) >> 32);
+}
+
 /* a * b, b < 2^16. */
 static inline uint64_t el_product_u32_u16(uint32_t a, uint32_t b)
 {
@@ -91,6 +97,15 @@ static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 #endif
 }
 
+#if defined(__ARM_ARCH_6M__)
+static inline void el_add_halves(int32_t a, int32_t b, uint32_t *high, uint32_t *low)
+{
+    const int32_t rest = (int32_t)((uint32_t)a << 17) >> 17;
+    *high += (uint32_t)((a - rest) >> 15) * (uint32_t)b;
+    *low += (uint32_t)rest * (uint32_t)b;
+}
+#endif
+
 /* The sum of three products a[i] * b[i], |a[i]| < 2^29. */
 static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
 {
@@ -98,12 +113,11 @@ static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
     /* a = 2^15 high + low, |high| and |low| at most 2^14: each sum is at most 3 * 2^29. */
     uint32_t high = 0;
     uint32_t low = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        const int32_t rest = (int32_t)((uint32_t)a[i] << 17) >> 17;
-        high += (uint32_t)((a[i] - rest) >> 15) * (uint32_t)b[i];
-        low += (uint32_t)rest * (uint32_t)b[i];
-    }
-    return ((int64_t)(int32_t)high * (1 << 15)) + (int32_t)low;
+    el_add_halves(a[0], b[0], &high, &low);
+    el_add_halves(a[1], b[1], &high, &low);
+    el_add_halves(a[2], b[2], &high, &low);
+    const uint32_t upper = (uint32_t)((int32_t)high >> 17);
+    return (int64_t)((uint64_t)upper << 32 | high << 15) + (int32_t)low;
 #else
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 #endif

@@ -63,22 +63,38 @@ static void place_vertices(drawing *d)
     }
 }
 
-/* The vertex, at its place among all of them, or in `copy`: its slot in the cache may be taken by its triangle's next. */
-static el_screen_vertex *vertex_at(drawing *d, uint16_t index, el_screen_vertex *copy)
+static el_screen_vertex *find_in_cache(drawing *d, uint16_t index)
 {
-    if (d->direct) {
-        return (el_screen_vertex *)d->vertices + index;
-    }
     cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
     if (slot->index != index) {
         slot->index = index;
         transform_vertices(d, index, 1, &slot->vertex);
     }
-    *copy = slot->vertex;
-    return copy;
+    return &slot->vertex;
 }
 
-/* The list is full. Makes it thin; where it is that already, gives up the last quarter of the pass' bands; where there is
+/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache. */
+static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
+{
+    if (d->direct) {
+        for (unsigned i = 0; i < 3; i++) {
+            v[i] = (el_screen_vertex *)d->vertices + indices[i];
+        }
+        return;
+    }
+    const unsigned mask = d->slots - 1U;
+    const bool apart = ((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
+                       ((indices[2] ^ indices[0]) & mask) != 0;
+    for (unsigned i = 0; i < 3; i++) {
+        v[i] = find_in_cache(d, indices[i]);
+        if (!apart) {
+            copies[i] = *v[i];
+            v[i] = &copies[i];
+        }
+    }
+}
+
+/* The list is full. Makes it thin; where it is that already, gives up the last eighth of the pass' bands; where there is
  * one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
@@ -90,7 +106,7 @@ static bool make_room(el_renderer *renderer)
         return false;
     }
     if (bands > 1) {
-        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 3 / 4);
+        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 7 / 8);
         el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
         return false;
     }
@@ -312,9 +328,7 @@ static void draw_triangles(drawing *d)
         const uint16_t *const vertices = d->mesh->triangles[i];
         el_screen_vertex copies[3];
         el_screen_vertex *v[3];
-        for (unsigned k = 0; k < 3; k++) {
-            v[k] = vertex_at(d, vertices[k], &copies[k]);
-        }
+        find_vertices(d, vertices, v, copies);
         if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
             stats->triangles_outside++;
             continue;

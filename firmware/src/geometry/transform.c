@@ -456,29 +456,19 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
 }
 
 #if !defined(__OPTIMIZE_SIZE__)
-/* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.4 units of 2^(s - 31), s being
- * the divisor's shift. Times `half` that is the result's magnitude with 31 - s bits of fraction, too low by less than
- * 2 half units. False where that might matter: near a tie, and for a w of few bits. */
-static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
+/* snap without the last bits, for what is in the view. c + w is in [0, 2w], so with w moved up to 31 bits, and c + w alike,
+ * no bit is lost, and their ratio with 30 bits of fraction is a product with 31 bits of the reciprocal, too low by less than
+ * 2 units. Times `half` it is the result, too low by less than 2 half units. False where that might matter: below a tie. */
+static inline bool snap_fast(uint32_t from_the_side, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
                              el_coordinate *result)
 {
     const uint32_t half = size * (uint32_t)(EL_SUBPIXELS / 2);
-    const unsigned s = divisor->shift;
-    const uint32_t magnitude = c < 0 ? 0U - (uint32_t)c : (uint32_t)c;
-    const uint32_t ratio = (uint32_t)(el_product_u64(magnitude, reciprocal) >> 32);
-    const uint64_t scaled = (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) +
-                            (1U << (30U - s));
-    const uint32_t fraction = (uint32_t)scaled << (s + 1U);
-    if (fraction == 0 || fraction >= 0U - (half << (s + 2U))) {
-        return false;
-    }
-    const int32_t offset = (int32_t)((uint32_t)(scaled >> 32) << (s + 1U) | (uint32_t)scaled >> (31U - s));
-    *result = (el_coordinate)((int32_t)half + (c < 0 ? -offset : offset));
-    return true;
+    const uint32_t ratio = el_product_high_u32(from_the_side << (divisor->shift - 1U), reciprocal);
+    const uint64_t scaled =
+        (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) + (1U << 29);
+    *result = (el_coordinate)((uint32_t)(scaled >> 30));
+    return (uint32_t)scaled << 2 < 0U - (half << 3);
 }
-
-/* The largest shift with which 2 half units are a fraction: half < 2^14 * EL_SUBPIXELS / 16. */
-enum { FAST_SHIFT = 30 - 14 - (EL_SUBPIXEL_BITS - 4) };
 
 /* depth_of without the last bits: near / w from 31 bits of the reciprocal and 32 of near, with at least 31 bits of
  * fraction, too low by less than 3 units; so scale * near / w, Q12 + 31, by less than 3 * 2^32, 3 of the 2^11 units that
@@ -486,13 +476,12 @@ enum { FAST_SHIFT = 30 - 14 - (EL_SUBPIXEL_BITS - 4) };
 static inline bool depth_fast(const el_transform *transform, const el_divisor *divisor, uint32_t reciprocal,
                               uint16_t *result)
 {
-    const uint32_t ratio = (uint32_t)(el_product_u64(transform->near_bits, reciprocal) >> 32);
+    const uint32_t ratio = el_product_high_u32(transform->near_bits, reciprocal);
     const int excess = 32 - divisor->shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
     if (excess < 0 || excess > 31) {
         return false;
     }
-    const uint64_t product = el_product_u64(transform->depth_scale, ratio);
-    const uint32_t high = (uint32_t)(product >> 32) >> excess;
+    const uint32_t high = el_product_high_u32(transform->depth_scale, ratio) >> excess;
     const uint32_t z = (transform->depth_scale >> 1) - high + (1U << 10);
     const uint32_t fraction = z & 2047U;
     if (fraction < 5U || fraction > 2042U || z >> 11 > EL_DEPTH_MAX) {
@@ -511,11 +500,10 @@ static void project_inside(const el_transform *transform, const el_clip_vertex *
     const uint32_t w = (uint32_t)vertex->w;
     const el_divisor divisor = el_divisor_make(w);
     const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
-    const bool fast = divisor.shift <= FAST_SHIFT;
-    if (!fast || !snap_fast(vertex->x, transform->size[0], &divisor, reciprocal, &screen->x)) {
+    if (!snap_fast(w + (uint32_t)vertex->x, transform->size[0], &divisor, reciprocal, &screen->x)) {
         screen->x = snap(vertex->x, transform->size[0], w, &divisor);
     }
-    if (!fast || !snap_fast(-vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
+    if (!snap_fast(w - (uint32_t)vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
         screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
     }
     if (transform->orthographic || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
