@@ -23,6 +23,10 @@ static void expect_reciprocal(const seeded *s, uint32_t d)
         fail_at(s, "%lu normalised is %lu << %d", (unsigned long)d, (unsigned long)divisor.normalised, divisor.shift);
     }
     const uint64_t expected = UINT64_MAX / divisor.normalised - (1ULL << 32);
+    const uint64_t short_by = (1ULL << 63) / divisor.normalised - el_reciprocal_near(divisor.normalised);
+    if (short_by >= EL_RECIPROCAL_ERROR) {
+        fail_at(s, "2^63 / %lu is short by %llu", (unsigned long)divisor.normalised, (unsigned long long)short_by);
+    }
     if (divisor.reciprocal != expected) {
         fail_at(s, "reciprocal of %lu is %llu, not %lu", (unsigned long)divisor.normalised,
                 (unsigned long long)expected, (unsigned long)divisor.reciprocal);

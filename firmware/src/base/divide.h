@@ -20,12 +20,39 @@ typedef struct el_divisor {
     uint8_t shift;       /* 0..31 */
 } el_divisor;
 
-/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
- * one, the paper's table elsewhere. */
+/* Half the first word of a reciprocal, 2^63 / d for a normalised d, too low by less than EL_RECIPROCAL_ERROR: all 2^31 of
+ * them were tried. 16 bits of it, too low by less than 2^-14 of it, and what they leave, times them. */
+enum { EL_RECIPROCAL_ERROR = 18 };
+
 #if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
 /* floor((2^24 - 2^14 + 2^9) / (512 + i)). */
 extern const uint16_t el_first_guesses[512];
 
+static inline uint32_t el_reciprocal_u16(uint32_t upper)
+{
+    /* A step of Newton's from the table, which is off by 2^-10: what is left is 2^20 of 2^30. */
+    const uint32_t guess = el_first_guesses[((upper - 1U) >> 6) - 512U];
+    const int32_t left = (1 << 30) - (int32_t)(guess * upper);
+    return 2U * guess + (uint32_t)(((int32_t)guess * (left >> 5)) >> 24);
+}
+#else
+static inline uint32_t el_reciprocal_u16(uint32_t upper)
+{
+    return 0x80000000U / upper;
+}
+#endif
+
+static inline uint32_t el_reciprocal_near(uint32_t d)
+{
+    const uint32_t first = el_reciprocal_u16((d >> 16) + 1U); /* below 2^16 */
+    const uint32_t product = first * (d >> 16) + ((first * (d & 0xFFFFU)) >> 16);
+    const uint32_t left = 0x7FFFFFFFU - product; /* below 1.0001 * 2^17 */
+    return (first << 16) + ((first * (left >> 2)) >> 13);
+}
+
+/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
+ * one, the paper's table elsewhere. */
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
 static inline uint32_t el_first_guess(uint32_t d10)
 {
     return el_first_guesses[d10 - 512U];

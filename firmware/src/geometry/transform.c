@@ -457,59 +457,70 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
 
 #if !defined(__OPTIMIZE_SIZE__)
 /* snap without the last bits, for what is in the view. c + w is in [0, 2w], so with w moved up to 31 bits, and c + w alike,
- * no bit is lost, and their ratio with 30 bits of fraction is a product with 31 bits of the reciprocal, too low by less than
- * 2 units. Times `half` it is the result, too low by less than 2 half units. False where that might matter: below a tie. */
-static inline bool snap_fast(uint32_t from_the_side, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
-                             el_coordinate *result)
+ * no bit is lost, and their ratio with 30 bits of fraction is a product with the reciprocal, too low by less than
+ * EL_RECIPROCAL_ERROR + 1 units, 19. Times `half` it is the result, too low by less than 20 half units. False where that
+ * might matter: below a tie. */
+static inline bool snap_fast(uint32_t from_the_side, uint16_t size, uint32_t reciprocal, el_coordinate *result)
 {
     const uint32_t half = size * (uint32_t)(EL_SUBPIXELS / 2);
-    const uint32_t ratio = el_product_high_u32(from_the_side << (divisor->shift - 1U), reciprocal);
+    const uint32_t ratio = el_product_high_u32(from_the_side, reciprocal);
     const uint64_t scaled =
         (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) + (1U << 29);
     *result = (el_coordinate)((uint32_t)(scaled >> 30));
-    return (uint32_t)scaled << 2 < 0U - (half << 3);
+    return (uint32_t)scaled << 2 < 0U - half * (20U << 2);
 }
 
-/* depth_of without the last bits: near / w from 31 bits of the reciprocal and 32 of near, with at least 31 bits of
- * fraction, too low by less than 3 units; so scale * near / w, Q12 + 31, by less than 3 * 2^32, 3 of the 2^11 units that
- * are kept; and depth_of's own rounding of the ratio is less than one of them. */
-static inline bool depth_fast(const el_transform *transform, const el_divisor *divisor, uint32_t reciprocal,
-                              uint16_t *result)
+/* depth_of without the last bits: near / w from 32 bits of near, with at least 31 bits of fraction, too low by less than
+ * EL_RECIPROCAL_ERROR + 1 units; so scale * near / w, Q12 + 31, by less than 19 * 2^32, 19 of the 2^11 units that are
+ * kept, and two for their rounding; and depth_of's own rounding of the ratio is less than one of them. */
+static inline bool depth_fast(const el_transform *transform, unsigned w_shift, uint32_t reciprocal, uint16_t *result)
 {
+    enum { OFF = 24 };
     const uint32_t ratio = el_product_high_u32(transform->near_bits, reciprocal);
-    const int excess = 32 - divisor->shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
+    const int excess = 32 - (int)w_shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
     if (excess < 0 || excess > 31) {
         return false;
     }
     const uint32_t high = el_product_high_u32(transform->depth_scale, ratio) >> excess;
     const uint32_t z = (transform->depth_scale >> 1) - high + (1U << 10);
     const uint32_t fraction = z & 2047U;
-    if (fraction < 5U || fraction > 2042U || z >> 11 > EL_DEPTH_MAX) {
+    if (fraction < OFF || fraction > 2047U - OFF || z >> 11 > EL_DEPTH_MAX) {
         return false;
     }
     *result = (uint16_t)(z >> 11);
     return true;
 }
+
+/* keep_reciprocal from the reciprocal's upper bits. False where that might matter. */
+static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shift, uint32_t reciprocal)
+{
+    const uint32_t rounded = ((reciprocal >> 15) + 1U) >> 1;
+    screen->w = (uint16_t)(rounded > 0xFFFFU ? 0xFFFFU : rounded);
+    screen->w_shift = (uint8_t)(31U - w_shift);
+    return ((reciprocal + 0x8000U) & 0xFFFFU) < 0x10000U - EL_RECIPROCAL_ERROR;
+}
 #endif
 
-static void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+/* el_project for what is in the view, which most vertices are: without the last bits, and once more where these might
+ * matter. */
+static inline void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
 {
 #if defined(__OPTIMIZE_SIZE__)
     el_project(transform, vertex, screen);
 #else
     const uint32_t w = (uint32_t)vertex->w;
-    const el_divisor divisor = el_divisor_make(w);
-    const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
-    if (!snap_fast(w + (uint32_t)vertex->x, transform->size[0], &divisor, reciprocal, &screen->x)) {
-        screen->x = snap(vertex->x, transform->size[0], w, &divisor);
-    }
-    if (!snap_fast(w - (uint32_t)vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
-        screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
-    }
-    if (transform->orthographic || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
+    const unsigned shift = (unsigned)__builtin_clz(w); /* w < 2^31: 1 at least */
+    const uint32_t reciprocal = el_reciprocal_near(w << shift);
+    const uint32_t x = (w + (uint32_t)vertex->x) << (shift - 1U);
+    const uint32_t y = (w - (uint32_t)vertex->y) << (shift - 1U);
+    if (!snap_fast(x, transform->size[0], reciprocal, &screen->x) ||
+        !snap_fast(y, transform->size[1], reciprocal, &screen->y) ||
+        !keep_reciprocal_fast(screen, shift, reciprocal)) {
+        el_project(transform, vertex, screen);
+    } else if (transform->orthographic || !depth_fast(transform, shift, reciprocal, &screen->z)) {
+        const el_divisor divisor = el_divisor_make(w);
         screen->z = depth_of(transform, vertex, w, &divisor);
     }
-    keep_reciprocal(screen, &divisor);
 #endif
 }
 
