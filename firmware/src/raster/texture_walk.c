@@ -7,7 +7,7 @@ enum {
     LENGTHS = 13,
     STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
     NEVER_Q8 = 1 << 20,
-    /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 2^-16 texel and steps are cut off
+    /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 3 * 2^-16 texel and steps are cut off
      * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
     ROUNDING_RESERVE_Q8 = 24
 };
@@ -46,9 +46,10 @@ static uint32_t whole(uint64_t w_q32)
     return w == 0 ? 1U : w;
 }
 
-/* base + 2^shift U / W in Q16 texels, too low by less than 2 units. At covered pixels |U| <= W < 2^31, so with both moved up by
- * W's leading zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with the upper 32 bits
- * of 2^63 / W is 2^30 U / W, off by less than 3: less than a unit of the result, whose shift is at most 27. */
+/* base + 2^shift U / W in Q16 texels, off by less than 3 units. At covered pixels |U| <= W < 2^31, so with both moved up by
+ * W's leading zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with 2^63 / W is
+ * 2^30 U / W, off by less than 3 for what is cut off and EL_RECIPROCAL_ERROR / 2 for the reciprocal: less than 2 units of the
+ * result, whose shift is at most 27, and one is cut off again. */
 static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
     const int32_t upper = (int32_t)((int64_t)(u_q32 << (w_shift - 1U)) >> 32);
@@ -62,8 +63,7 @@ static inline void find_knot(el_texture_walk *walk)
     const el_perspective *const p = walk->planes;
     const uint32_t w = (uint32_t)(walk->w >> 32);
     const unsigned w_shift = w == 0 ? 31U : (unsigned)__builtin_clz(w);
-    const el_divisor divisor = el_divisor_make((uint32_t)((walk->w << w_shift) >> 32) | (1U << 31));
-    const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
+    const uint32_t reciprocal = el_reciprocal_near((uint32_t)((walk->w << w_shift) >> 32) | (1U << 31));
     walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
     walk->next_v_q16 = knot(walk->v, w_shift, reciprocal, p->v_shift, p->v_base_q16);
 }
