@@ -35,15 +35,24 @@ static inline int32_t el_max_i32(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-/* a * b modulo 2^64, |b| < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead. */
+/* a * b modulo 2^64, b < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead. */
+static inline uint64_t el_multiply_u16(uint64_t a, uint32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    const uint32_t low = (uint32_t)a;
+    const uint32_t middle = (low >> 16) * b;
+    const uint32_t high = (uint32_t)(a >> 32) * b + (middle >> 16);
+    return ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * b;
+#else
+    return a * b;
+#endif
+}
+
+/* a * b modulo 2^64, |b| < 2^16. */
 static inline uint64_t el_multiply_u64(uint64_t a, int32_t b)
 {
 #if defined(__ARM_ARCH_6M__)
-    const uint32_t factor = (uint32_t)(b < 0 ? -b : b);
-    const uint32_t low = (uint32_t)a;
-    const uint32_t middle = (low >> 16) * factor;
-    const uint32_t high = (uint32_t)(a >> 32) * factor + (middle >> 16);
-    const uint64_t product = ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * factor;
+    const uint64_t product = el_multiply_u16(a, (uint32_t)(b < 0 ? -b : b));
     return b < 0 ? 0 - product : product;
 #else
     return a * (uint64_t)(int64_t)b;
@@ -65,6 +74,18 @@ static inline uint64_t el_product_u64(uint32_t a, uint32_t b)
     return (uint64_t)high << 32 | second << 16 | (low & 0xFFFFU);
 #else
     return (uint64_t)a * b;
+#endif
+}
+
+/* a * b. */
+static inline int64_t el_product_i32(int32_t a, int32_t b)
+{
+#if defined(__ARM_ARCH_6M__)
+    /* Modulo 2^32 a negative number is 2^32 more. */
+    const uint32_t excess = (a < 0 ? (uint32_t)b : 0U) + (b < 0 ? (uint32_t)a : 0U);
+    return (int64_t)(el_product_u64((uint32_t)a, (uint32_t)b) - ((uint64_t)excess << 32));
+#else
+    return (int64_t)a * b;
 #endif
 }
 

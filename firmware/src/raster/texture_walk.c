@@ -25,11 +25,16 @@ static const uint16_t log2_q8[129] = {
     193, 194, 196, 198, 200, 201, 203, 205, 206, 208, 209, 211, 213, 214, 216, 218, 219, 221, 222, 224, 225, 227,
     229, 230, 232, 233, 235, 236, 238, 239, 241, 242, 244, 245, 247, 248, 250, 251, 253, 254, 256};
 
-/* log2 x rounded down; x >= 1. */
-static int32_t log2_floor_q8(uint32_t x)
+/* log2 x rounded down, of an x >= 1 moved up by its leading zeros. */
+static inline int32_t log2_of_normalised_q8(uint32_t x, unsigned leading)
 {
-    const int leading = __builtin_clz(x);
-    return (31 - leading) * 256 + log2_q8[((x << leading) >> 24) & 127U];
+    return (31 - (int32_t)leading) * 256 + log2_q8[(x >> 24) & 127U];
+}
+
+static inline int32_t log2_floor_q8(uint32_t x)
+{
+    const unsigned leading = (unsigned)__builtin_clz(x);
+    return log2_of_normalised_q8(x << leading, leading);
 }
 
 /* log2 x rounded up; x >= 1. */
@@ -46,13 +51,19 @@ static uint32_t whole(uint64_t w_q32)
     return w == 0 ? 1U : w;
 }
 
+/* The upper word of x << shift, shift <= 31. */
+static inline uint32_t upper_word(uint64_t x, unsigned shift)
+{
+    return (uint32_t)(x >> 32) << shift | (uint32_t)x >> 1 >> (31U - shift);
+}
+
 /* base + 2^shift U / W in Q16 texels, off by less than 3 units. At covered pixels |U| <= W < 2^31, so with both moved up by
  * W's leading zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with 2^63 / W is
  * 2^30 U / W, off by less than 3 for what is cut off and EL_RECIPROCAL_ERROR / 2 for the reciprocal: less than 2 units of the
  * result, whose shift is at most 27, and one is cut off again. */
 static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
-    const int32_t upper = (int32_t)((int64_t)(u_q32 << (w_shift - 1U)) >> 32);
+    const int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
     const int32_t ratio_q30 = el_multiply_high_i32_u32(upper, reciprocal);
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
@@ -63,7 +74,9 @@ static inline void find_knot(el_texture_walk *walk)
     const el_perspective *const p = walk->planes;
     const uint32_t w = (uint32_t)(walk->w >> 32);
     const unsigned w_shift = w == 0 ? 31U : (unsigned)__builtin_clz(w);
-    const uint32_t reciprocal = el_reciprocal_near((uint32_t)((walk->w << w_shift) >> 32) | (1U << 31));
+    const uint32_t normalised = w == 0 ? 1U << 31 : upper_word(walk->w, w_shift); /* as in whole() */
+    const uint32_t reciprocal = el_reciprocal_near(normalised);
+    walk->w_log2_q8 = log2_of_normalised_q8(normalised, w_shift);
     walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
     walk->next_v_q16 = knot(walk->v, w_shift, reciprocal, p->v_shift, p->v_base_q16);
 }
@@ -75,7 +88,7 @@ static int32_t curvature_q8(uint64_t value_q32, const el_plane *plane, int32_t w
 {
     const int32_t value = (int32_t)(uint32_t)(value_q32 >> 32);
     const int32_t step_q4 = (int32_t)((int64_t)plane->dx >> 28);
-    const int64_t j_q4 = (int64_t)step_q4 * w - (int64_t)value * w_step_q4;
+    const int64_t j_q4 = el_product_i32(step_q4, w) - el_product_i32(value, w_step_q4);
     const uint64_t bound_q4 = el_abs_u64(j_q4) + (uint32_t)w + el_abs_u64(value);
     return log2_ceil_q8(bound_q4) + shift * 256;
 }
@@ -89,9 +102,14 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
 {
     const el_perspective *const p = &triangle->perspective;
     walk->planes = p;
-    walk->w = p->w.value + el_plane_times(p->w.dx, skipped);
-    walk->u = p->u.value + el_plane_times(p->u.dx, skipped);
-    walk->v = p->v.value + el_plane_times(p->v.dx, skipped);
+    walk->w = p->w.value;
+    walk->u = p->u.value;
+    walk->v = p->v.value;
+    if (skipped != 0) {
+        walk->w += el_plane_times(p->w.dx, skipped);
+        walk->u += el_plane_times(p->u.dx, skipped);
+        walk->v += el_plane_times(p->v.dx, skipped);
+    }
     walk->length = LENGTHS - 1;
     find_knot(walk);
     walk->u_step_q16 = 0;
@@ -110,9 +128,10 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
         /* 4 bits of fraction twice, 16 bits of u and v. */
         const int32_t product_q8 = curvature + w_step - (4 + 4 + 16) * 256;
         const int32_t error_q8 = -(int32_t)triangle->surface.uv_error_log2 * 256;
-        /* Rounded up; the constant keeps the dividend positive, so that the division does. */
+        /* A third, rounded up: the constant keeps the dividend positive, 26,138 is the most and -6,374 the least that it can
+         * be without, and for less than 2^16 the product is the quotient. */
         const int32_t three = product_q8 - 2 * 256 - error_q8 + ROUNDING_RESERVE_Q8;
-        walk->limit_q8 = (three + 3 * NEVER_Q8 + 2) / 3 - NEVER_Q8;
+        walk->limit_q8 = (int32_t)((uint32_t)(three + 3 * 4096 + 2) * 0xAAABU >> 17) - 4096;
     }
 }
 
@@ -145,7 +164,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
     const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
     const int32_t most = left - 1;
-    const int32_t w_here_q8 = log2_floor_q8(whole(walk->w));
+    const int32_t w_here_q8 = walk->w_log2_q8;
     int32_t i = walk->length;
     if (!falls) {
         /* W grows, so pieces do. */
@@ -161,7 +180,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
         }
         const int32_t pixels = el_min_i32(lengths[i], most);
         const int32_t least_q8 =
-            falls ? log2_floor_q8(whole(walk->w + el_multiply_u64(w_step, pixels))) : w_here_q8;
+            falls ? log2_floor_q8(whole(walk->w + el_multiply_u16(w_step, (uint32_t)pixels))) : w_here_q8;
         if (least_q8 >= walk->limit_q8 + length_q8[i]) {
             length = pixels;
             break;
@@ -169,9 +188,9 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
     }
     walk->length = (uint8_t)(i < 0 ? 0 : i);
 
-    walk->w += el_multiply_u64(w_step, length);
-    walk->u += el_multiply_u64(p->u.dx, length);
-    walk->v += el_multiply_u64(p->v.dx, length);
+    walk->w += el_multiply_u16(w_step, (uint32_t)length);
+    walk->u += el_multiply_u16(p->u.dx, (uint32_t)length);
+    walk->v += el_multiply_u16(p->v.dx, (uint32_t)length);
     find_knot(walk);
     walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, length);
     walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, length);

@@ -28,6 +28,7 @@ typedef struct el_texture_walk {
     int32_t u_q16, v_q16; /* texture coordinates at the piece's first pixel */
     int32_t u_step_q16, v_step_q16;
     int32_t next_u_q16, next_v_q16; /* at the next knot */
+    int32_t w_log2_q8;              /* of W there, rounded down */
     int32_t limit_q8;               /* log2 W must be this much and 2/3 log2 n */
     uint8_t length;                 /* index of the length that the last piece had */
 } el_texture_walk;
