@@ -72,9 +72,9 @@ static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal
 static inline void find_knot(el_texture_walk *walk)
 {
     const el_perspective *const p = walk->planes;
-    const uint32_t w = (uint32_t)(walk->w >> 32);
-    const unsigned w_shift = w == 0 ? 31U : (unsigned)__builtin_clz(w);
-    const uint32_t normalised = w == 0 ? 1U << 31 : upper_word(walk->w, w_shift); /* as in whole() */
+    const uint64_t w = walk->w >> 32 == 0 ? 1ULL << 32 : walk->w; /* as in whole() */
+    const unsigned w_shift = (unsigned)__builtin_clz((uint32_t)(w >> 32));
+    const uint32_t normalised = upper_word(w, w_shift);
     const uint32_t reciprocal = el_reciprocal_near(normalised);
     walk->w_log2_q8 = log2_of_normalised_q8(normalised, w_shift);
     walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
