@@ -1,5 +1,6 @@
 /* Division by a reciprocal is exact: against `/` and 128-bit arithmetic, for divisors of every size. */
-#include "base/divide.h"
+#define EL_DIVIDE_BY_TABLE /* as on cores without a divider; all other tests divide */
+#include "base/reciprocals.c"
 
 #include "seeded.h"
 
@@ -110,6 +111,16 @@ static void test_divisors_beside_the_steps_of_the_first_guess(void)
     }
 }
 
+static void test_tables(void)
+{
+    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
+        TEST_ASSERT_EQUAL_HEX32(UINT32_MAX / d, el_reciprocal_of_short(d));
+    }
+    for (uint32_t d = 512; d < 1024; d++) {
+        TEST_ASSERT_EQUAL_HEX32(((1U << 24) - (1U << 14) + (1U << 9)) / d, el_first_guess(d));
+    }
+}
+
 static void test_reciprocals_seeded(void)
 {
     for (seeded s = seeded_from(5); s.round < ROUNDS; s.round++) {
@@ -163,6 +174,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_small_divisors_and_powers_of_two);
     RUN_TEST(test_divisors_beside_the_steps_of_the_first_guess);
+    RUN_TEST(test_tables);
     RUN_TEST(test_reciprocals_seeded);
     RUN_TEST(test_quotients_seeded);
     RUN_TEST(test_wide_divisors_seeded);

@@ -14,6 +14,11 @@
 extern "C" {
 #endif
 
+/* A core without a divider has tables instead, but where size counts. A test asks for them too. */
+#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#define EL_DIVIDE_BY_TABLE
+#endif
+
 typedef struct el_divisor {
     uint32_t normalised; /* d << shift, with its top bit set */
     uint32_t reciprocal; /* floor((2^64 - 1) / normalised) - 2^32 */
@@ -24,7 +29,7 @@ typedef struct el_divisor {
  * them were tried. 16 bits of it, too low by less than 2^-14 of it, and what they leave, times them. */
 enum { EL_RECIPROCAL_ERROR = 18 };
 
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(EL_DIVIDE_BY_TABLE)
 /* floor((2^24 - 2^14 + 2^9) / (512 + i)). */
 extern const uint16_t el_first_guesses[512];
 
@@ -52,7 +57,7 @@ static inline uint32_t el_reciprocal_near(uint32_t d)
 
 /* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
  * one, the paper's table elsewhere. */
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(EL_DIVIDE_BY_TABLE)
 static inline uint32_t el_first_guess(uint32_t d10)
 {
     return el_first_guesses[d10 - 512U];
@@ -69,7 +74,7 @@ static inline uint32_t el_reciprocal_word(uint32_t d)
     const uint32_t d10 = d >> 22;        /* 512..1023 */
     const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
     const uint32_t d31 = (d >> 1) + (d & 1U);
-    const uint32_t v0 = el_first_guess(d10);                                                /* below 2^15 */
+    const uint32_t v0 = el_first_guess(d10);                                             /* below 2^15 */
     const uint32_t v1 = (v0 << 4) - (uint32_t)(el_product_u64(v0 * v0, d21) >> 32) - 1U; /* v0^2 < 2^30 */
     const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
     const uint32_t v2 = (v1 << 15) + (uint32_t)(el_product_u64(v1, e) >> 33);
@@ -140,7 +145,7 @@ static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
 
 /* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(EL_DIVIDE_BY_TABLE)
 extern const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
 static inline uint32_t el_reciprocal_of_short(uint32_t d)
 {

@@ -2,7 +2,7 @@
  * tests/unit/test_divide.c computes the tables anew. */
 #include "base/divide.h"
 
-#if defined(__ARM_ARCH_6M__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(EL_DIVIDE_BY_TABLE)
 /* clang-format off */
 const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1] = {
     0x00000000, 0xFFFFFFFF, 0x7FFFFFFF, 0x55555555, 0x3FFFFFFF, 0x33333333, 0x2AAAAAAA, 0x24924924,

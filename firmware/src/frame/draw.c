@@ -20,7 +20,7 @@ typedef struct drawing {
     bool direct;
     bool perspective_records;
     uint32_t slots; /* of the cache, a power of two */
-    void *vertices;    /* el_screen_vertex[] or cached_vertex[] */
+    void *vertices; /* el_screen_vertex[] or cached_vertex[] */
 } drawing;
 
 static void transform_vertices(drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)

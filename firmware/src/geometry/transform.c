@@ -514,8 +514,7 @@ static inline void project_inside(const el_transform *transform, const el_clip_v
     const uint32_t x = (w + (uint32_t)vertex->x) << (shift - 1U);
     const uint32_t y = (w - (uint32_t)vertex->y) << (shift - 1U);
     if (!snap_fast(x, transform->size[0], reciprocal, &screen->x) ||
-        !snap_fast(y, transform->size[1], reciprocal, &screen->y) ||
-        !keep_reciprocal_fast(screen, shift, reciprocal)) {
+        !snap_fast(y, transform->size[1], reciprocal, &screen->y) || !keep_reciprocal_fast(screen, shift, reciprocal)) {
         el_project(transform, vertex, screen);
     } else if (transform->orthographic || !depth_fast(transform, shift, reciprocal, &screen->z)) {
         const el_divisor divisor = el_divisor_make(w);

@@ -100,8 +100,8 @@ typedef struct el_list {
     uint16_t *bins; /* last record of each band; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    uint16_t run; /* the run that takes records; 0: none */
-    bool is_thin; /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    uint16_t run;           /* the run that takes records; 0: none */
+    bool is_thin;           /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
     uint64_t rows_to_bands; /* 2^32 / band_lines, rounded up: a product instead of a division, exact for rows < 2^16 */
 } el_list;
 
