@@ -94,7 +94,7 @@ static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_verte
     }
 }
 
-/* The list is full. Makes it thin; where it is that already, gives up the last eighth of the pass' bands; where there is
+/* The list is full. Makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there is
  * one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
@@ -106,7 +106,7 @@ static bool make_room(el_renderer *renderer)
         return false;
     }
     if (bands > 1) {
-        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 7 / 8);
+        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 15 / 16);
         el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
         return false;
     }
