@@ -5,14 +5,14 @@ static void off_case(const bench_case *self, int32_t *record)
 {
     const el_surface surface = {.shading = EL_SHADE_GOURAUD};
     (void)record;
-    draw_all(&surface, self->triangles, 0, 0, NULL, NULL);
+    draw_all(&surface, self->triangles, 0, NULL, NULL);
 }
 
 static void on_case(const bench_case *self, int32_t *record)
 {
     const el_surface surface = {.shading = EL_SHADE_GOURAUD, .dither = true};
     (void)record;
-    draw_all(&surface, self->triangles, 0, 0, NULL, NULL);
+    draw_all(&surface, self->triangles, 0, NULL, NULL);
 }
 
 /* Blocks of 4 x 4 pixels fit the larger triangles only. */
