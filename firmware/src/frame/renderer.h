@@ -6,8 +6,9 @@
  *     } while (el_frame_next(&r) > 0);
  *
  * A pass collects the triangles of as many bands as the arena has room for, draws them band by band and hands the bands
- * to the sinks. When the list fills up while it is being collected, the pass gives up its lower bands, which a further
- * pass draws; the caller's loop submits the scene again. A pass of one band cannot shrink: it draws what it has into
+ * to the sinks. When the list fills up while it is being collected, it keeps 8 bytes per triangle from then on; when that
+ * is too much as well, the pass gives up its lower bands, which a further pass draws; the caller's loop submits the scene
+ * again. A pass of one band cannot shrink: it draws what it has into
  * the band and goes on collecting. So every frame gets drawn, in any arena that el_init accepts, with the same pixels:
  * which triangle wins a pixel depends on depth and order of submission alone. */
 #ifndef EL_FRAME_RENDERER_H
@@ -41,8 +42,10 @@ extern "C" {
 #endif
 
 enum {
-    EL_MIN_LIST_BYTES = 512, /* room for a run, a cut triangle and a few vertices at a time */
-    EL_RUN_BYTES = 32        /* a draw call's, and another for each change between whole and cut triangles */
+    EL_MIN_LIST_BYTES =
+        EL_WITH_THIN ? 704 : 512, /* room for a draw call, a cut triangle and a few vertices at a time */
+    EL_RUN_BYTES =
+        EL_WITH_THIN ? 160 : 32 /* a draw call's; 8 for each change between whole and cut triangles come to it */
 };
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
@@ -54,7 +57,8 @@ enum {
 
 /* An arena in which a frame of `draws` draw calls of meshes of at most `vertices` vertices each, with `triangles` visible
  * textured triangles in all, takes one pass (24/32 of that for triangles without textures). A triangle that is cut at the
- * near or far plane or the guard band counts for up to seven of three times the size; few are. While triangles are
+ * near or far plane or the guard band counts for up to seven of three times the size; few are. A third of the room for
+ * triangles takes one pass too, but their vertices are transformed twice then, and more often where little is left. While triangles are
  * collected the vertices lie in the depth band, which is not in use then, and beside it where that is too small.
  * Less memory costs passes, never pixels. Never less than el_init accepts. */
 #define EL_MEMORY_BYTES(width, height, band_lines, vertices, triangles, draws)                                         \

@@ -52,10 +52,14 @@ enum {
     EL_CODE_ABOVE = 8,
     EL_CODE_NEAR = 16,
     EL_CODE_FAR = 32,
-    EL_CODE_GUARD = 64, /* beyond the guard band */
+    EL_CODE_GUARD = 64,  /* beyond the guard band */
+    EL_CODE_LATER = 128, /* not projected yet */
     EL_CODE_OUTSIDE = EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE | EL_CODE_NEAR | EL_CODE_FAR,
     EL_CODE_CLIP = EL_CODE_NEAR | EL_CODE_FAR | EL_CODE_GUARD /* cannot be projected: its triangles are cut first */
 };
+
+/* Of a row's elements: what a core without long products adds up in 32 bits. */
+enum { EL_ROW_BITS = 29 };
 
 typedef struct el_transform {
     uint8_t shift; /* 1..31 */
@@ -65,14 +69,14 @@ typedef struct el_transform {
     uint8_t depth_shift;
     int8_t near_shift;
     uint16_t size[2];
-    int32_t rows[3][3]; /* x, y, d per position unit, times 2^shift */
-    int64_t offsets[3]; /* |offset| < 2^62 */
-    int32_t near;       /* in the draw's unit: 1 <= near < 2^30 */
-    int32_t far;        /* likewise, or INT32_MAX */
-    int32_t constant_w; /* orthographic: w of every vertex */
-    uint32_t near_bits; /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
+    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift; EL_ROW_BITS where shift > 1, else below 2^31 */
+    int64_t offsets[3];   /* |offset| < 2^62 */
+    int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
+    int32_t far;          /* likewise, or INT32_MAX */
+    int32_t constant_w;   /* orthographic: w of every vertex */
+    uint32_t near_bits;   /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
                            give near 31 bits */
-    uint64_t near_q32;  /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
 } el_transform;
 
@@ -91,7 +95,7 @@ typedef struct el_clip_vertex {
     int32_t x, y, d, w;
 } el_clip_vertex;
 
-/* A vertex on the screen. Where code has a bit of EL_CODE_CLIP, only code is valid. */
+/* A vertex on the screen. Where code has a bit of EL_CODE_CLIP or EL_CODE_LATER, only code is valid. */
 typedef struct el_screen_vertex {
     el_coordinate x; /* right */
     el_coordinate y; /* down */
@@ -106,6 +110,10 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
 
 /* All of what follows for one mesh position. */
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
+
+/* The same for `count` of them, but those outside the view are not projected: few of their triangles will ask for them. */
+void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
+                           el_screen_vertex *screen);
 
 /* Where a clip vertex lies. */
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);

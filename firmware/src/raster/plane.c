@@ -5,7 +5,7 @@
 EL_INLINE_HERE uint64_t el_plane_times(uint64_t gradient, int32_t count);
 EL_INLINE_HERE int64_t el_doubled_area(const int32_t x[3], const int32_t y[3]);
 
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+#if EL_SUBPIXEL_BITS == 4
 static inline bool within_small(int32_t difference)
 {
     return (uint32_t)(difference + EL_SMALL_SUB) <= 2U * EL_SMALL_SUB;
@@ -22,7 +22,7 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
     frame->dy2 = y[2] - y[0];
     const int64_t area = el_doubled_area(x, y);
     frame->sign = area < 0 ? -1 : 1;
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+#if EL_SUBPIXEL_BITS == 4
     frame->small =
         within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) && within_small(frame->dy2);
 #else
@@ -84,17 +84,31 @@ static void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor
     g->offset = divide(a * at->to_centre_x + b * at->to_centre_y, fraction_bits, &frame->area);
 }
 
-/* The same quotients, in 32 bits. */
+#if EL_SUBPIXEL_BITS == 4
+static inline uint64_t divide_small(int32_t value, const el_area *area)
+{
+#if EL_SMALL_CODE
+    return divide(value, 0, area);
+#else
+    return el_divide_i32_q32(value, area);
+#endif
+}
+#endif
+
+/* In 32 bits: quotients per sub-pixel, truncated at 2^-32, and a pixel is EL_SUBPIXELS of them. The sums over the 1023
+ * sub-pixels of a small triangle are off by less than 2^-20, where 2^-19 may be. */
 static void small_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int32_t d1, int32_t d2)
 {
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+#if EL_SUBPIXEL_BITS == 4
     if (frame->small) {
-        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27, and 16 times that below 2^31. */
+        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27. */
         const int32_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
         const int32_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
-        g->dx = el_divide_i32_q32(a * EL_SUBPIXELS, &frame->area);
-        g->dy = el_divide_i32_q32(b * EL_SUBPIXELS, &frame->area);
-        g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y, &frame->area);
+        const uint64_t per_x = divide_small(a, &frame->area);
+        const uint64_t per_y = divide_small(b, &frame->area);
+        g->dx = per_x << EL_SUBPIXEL_BITS;
+        g->dy = per_y << EL_SUBPIXEL_BITS;
+        g->offset = el_multiply_u64(per_x, at->to_centre_x) + el_multiply_u64(per_y, at->to_centre_y);
         return;
     }
 #endif

@@ -68,11 +68,27 @@ static SPECIALISED void span_step(span *s, unsigned kind)
     }
 }
 
-static SPECIALISED uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint32_t v_q16)
+/* Where a texture's texels are: masks for the whole parts of u and v, which repeat it, the latter already times the
+ * width. A copy, because a compiler must assume that a pixel written may lie in the texture's own description. */
+typedef struct texel_source {
+    const uint16_t *texels;
+    uint32_t u_mask, v_mask;
+    unsigned v_down; /* from Q16 to whole texels times the width */
+} texel_source;
+
+static SPECIALISED texel_source source_of(const el_texture *texture)
 {
-    const uint32_t column = (u_q16 >> 16) & ((1U << texture->width_log2) - 1U);
-    const uint32_t line = (v_q16 >> 16) & ((1U << texture->height_log2) - 1U);
-    return texture->texels[(line << texture->width_log2) + column];
+    return (texel_source){
+        .texels = texture->texels,
+        .u_mask = (1U << texture->width_log2) - 1U,
+        .v_mask = ((1U << texture->height_log2) - 1U) << texture->width_log2,
+        .v_down = 16U - texture->width_log2,
+    };
+}
+
+static SPECIALISED uint32_t texel_at(const texel_source *source, uint32_t u_q16, uint32_t v_q16)
+{
+    return source->texels[((v_q16 >> source->v_down) & source->v_mask) | ((u_q16 >> 16) & source->u_mask)];
 }
 
 /* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
@@ -149,26 +165,31 @@ static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsign
 static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
 {
     span s = span_begin(triangle, r.skipped, kind);
+    const texel_source source = source_of(triangle->surface.texture);
+    const uint32_t y = (uint32_t)triangle->y;
     el_texture_walk walk;
     el_texture_walk_begin(&walk, triangle, r.skipped);
     int32_t x = r.x;
     while (x < r.x_end) {
-        const int32_t length = el_texture_walk_piece(&walk, triangle, r.x_end - x);
+        const int32_t length = el_texture_walk_piece(&walk, r.x_end - x);
+        x += length;
+        uint16_t *const colour = r.colour + x;
+        uint16_t *const depth = r.depth + ((kind & DEPTH) != 0 ? x : 0);
         uint32_t u_q16 = (uint32_t)walk.u_q16;
         uint32_t v_q16 = (uint32_t)walk.v_q16;
-        for (const int32_t piece_end = x + length; x < piece_end; x++) {
-            if (passes(&s, &r.depth[x], kind)) {
-                const uint32_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
-                r.colour[x] =
-                    (kind & COLOURS) != 0
-                        ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
-                        : (uint16_t)texel;
+        const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
+        const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
+        for (int32_t i = -length; i < 0; i++) {
+            if (passes(&s, &depth[i], kind)) {
+                const uint32_t texel = texel_at(&source, u_q16, v_q16);
+                colour[i] = (kind & COLOURS) != 0
+                                ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)(x + i), y), kind)
+                                : (uint16_t)texel;
             }
             span_step(&s, kind);
-            u_q16 += (uint32_t)walk.u_step_q16;
-            v_q16 += (uint32_t)walk.v_step_q16;
+            u_q16 += u_step_q16;
+            v_q16 += v_step_q16;
         }
-        el_texture_walk_next(&walk, triangle, length);
     }
 }
 
@@ -359,11 +380,10 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
     el_texture_walk walk;
     el_texture_walk_begin(&walk, triangle, begin - left);
     int32_t at = begin;
-    int32_t length = el_texture_walk_piece(&walk, triangle, end - at);
+    int32_t length = el_texture_walk_piece(&walk, end - at);
     while (x >= at + length) {
-        el_texture_walk_next(&walk, triangle, length);
         at += length;
-        length = el_texture_walk_piece(&walk, triangle, end - at);
+        length = el_texture_walk_piece(&walk, end - at);
     }
     sample->u_q16 = walk.u_q16 + (x - at) * walk.u_step_q16;
     sample->v_q16 = walk.v_q16 + (x - at) * walk.v_step_q16;
