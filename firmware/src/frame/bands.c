@@ -98,10 +98,9 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
     } else {
         el_corner corners[3];
         el_surface surface;
-        el_list_gather(list, record, corners, &surface);
+        el_count(&renderer->stats.vertices, el_list_gather(list, record, corners, &surface));
         surface.uv_error_log2 = renderer->config.uv_error_log2;
         el_count(&renderer->stats.setups, 1);
-        el_count(&renderer->stats.vertices, el_list_kind(list, record) == EL_RECORD_THIN ? 3 : 0);
         const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
         if (EL_WITH_CARRY && el_first_centre(y_last) > target->y_end) {
             state = take_state(pool, list, surface.shading);

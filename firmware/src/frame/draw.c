@@ -29,7 +29,13 @@ typedef struct drawing {
 
 static void transform_vertices(drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
 {
+#if EL_SMALL_CODE
+    for (uint32_t i = 0; i < count; i++) {
+        el_transform_vertex(&d->state.transform, d->mesh->positions[first + i], &screen[i]);
+    }
+#else
     el_transform_vertices(&d->state.transform, &d->mesh->positions[first], count, screen);
+#endif
     el_count(&d->renderer->stats.vertices, count);
 }
 
@@ -67,8 +73,11 @@ static void place_vertices(drawing *d)
     }
 }
 
-static el_screen_vertex *find_in_cache(drawing *d, uint16_t index)
+static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
 {
+    if (d->direct) {
+        return (el_screen_vertex *)d->vertices + index;
+    }
     cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
     if (slot->index != index) {
         slot->index = index;
@@ -77,20 +86,19 @@ static el_screen_vertex *find_in_cache(drawing *d, uint16_t index)
     return &slot->vertex;
 }
 
-/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache. */
+/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache; in small code always. */
 static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
 {
-    if (d->direct) {
-        for (unsigned i = 0; i < 3; i++) {
-            v[i] = (el_screen_vertex *)d->vertices + indices[i];
-        }
-        return;
-    }
+#if EL_SMALL_CODE
+    const bool apart = false;
+#else
     const unsigned mask = d->slots - 1U;
-    const bool apart = ((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
-                       ((indices[2] ^ indices[0]) & mask) != 0;
+    const bool apart =
+        d->direct || (((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
+                      ((indices[2] ^ indices[0]) & mask) != 0);
+#endif
     for (unsigned i = 0; i < 3; i++) {
-        v[i] = find_in_cache(d, indices[i]);
+        v[i] = find_vertex(d, indices[i]);
         if (!apart) {
             copies[i] = *v[i];
             v[i] = &copies[i];
@@ -217,17 +225,21 @@ static bool try_triangle(drawing *d, uint16_t index, const el_screen_vertex *con
 static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
                          const el_clip_corner *const cut[3])
 {
+#if EL_SMALL_CODE
+    const el_screen_vertex *const *const kept = v;
+#else
     if (try_triangle(d, index, v, cut)) {
         return;
     }
     /* The vertices' place may be needed. */
     const el_screen_vertex copies[3] = {*v[0], *v[1], *v[2]};
     const el_screen_vertex *const kept[3] = {&copies[0], &copies[1], &copies[2]};
-    do {
+#endif
+    while (!try_triangle(d, index, kept, cut)) {
         if (make_room(d->renderer)) {
             place_vertices(d);
         }
-    } while (!try_triangle(d, index, kept, cut));
+    }
 }
 
 /* Which side of the triangle the camera sees, before it is cut: the light needs it. */

@@ -509,15 +509,11 @@ static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shi
     screen->w_shift = (uint8_t)(31U - w_shift);
     return ((reciprocal + 0x8000U) & 0xFFFFU) < 0x10000U - EL_RECIPROCAL_ERROR;
 }
-#endif
 
 /* el_project for what is in the view, which most vertices are: without the last bits, and once more where these might
  * matter. */
 static inline void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
 {
-#if EL_SMALL_CODE
-    el_project(transform, vertex, screen);
-#else
     const uint32_t w = (uint32_t)vertex->w;
     const unsigned shift = (unsigned)__builtin_clz(w); /* w < 2^31: 1 at least */
     const uint32_t reciprocal = el_reciprocal_near(w << shift);
@@ -530,7 +526,6 @@ static inline void project_inside(const el_transform *transform, const el_clip_v
         const el_divisor divisor = el_divisor_make(w);
         screen->z = depth_of(transform, vertex, w, &divisor);
     }
-#endif
 }
 
 /* Most vertices are in the view, between near and far: three comparisons. */
@@ -541,28 +536,29 @@ static inline bool is_in_view(const el_transform *transform, const el_clip_verte
     return (uint32_t)vertex->d - near <= (uint32_t)transform->far - near && (uint32_t)vertex->x + w <= 2U * w &&
            (uint32_t)vertex->y + w <= 2U * w;
 }
+#endif
 
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
     const el_clip_vertex vertex = position_of(transform, position);
+#if !EL_SMALL_CODE
     if (is_in_view(transform, &vertex)) {
         screen->code = 0;
         project_inside(transform, &vertex, screen);
         return;
     }
+#endif
     screen->code = el_outcode(transform, &vertex);
     if ((screen->code & EL_CODE_CLIP) == 0) {
         el_project(transform, &vertex, screen);
     }
 }
 
+#if !EL_SMALL_CODE
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
                            el_screen_vertex *screen)
 {
     for (uint32_t i = 0; i < count; i++) {
-#if EL_SMALL_CODE
-        el_transform_vertex(transform, positions[i], &screen[i]);
-#else
         const el_clip_vertex vertex = position_of(transform, positions[i]);
         if (is_in_view(transform, &vertex)) {
             screen[i].code = 0;
@@ -570,6 +566,6 @@ void el_transform_vertices(const el_transform *transform, const int16_t (*positi
         } else {
             screen[i].code = (uint8_t)(el_outcode(transform, &vertex) | EL_CODE_LATER);
         }
-#endif
     }
 }
+#endif

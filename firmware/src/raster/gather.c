@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/fixed.h"
 #include "base/rgb565.h"
 #include "raster/list.h"
 
@@ -28,12 +29,17 @@ static const uint8_t *base_colour(const el_draw_state *draw, uint16_t vertex)
     return draw->mesh->colours != NULL ? draw->mesh->colours[vertex] : draw->material->colour;
 }
 
-/* colour * light / 255, 8.8. With n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and (q + r) <= 65280. */
+/* colour * light / 255, 8.8. Without a division: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
+ * (q + r) <= 65280. */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
     const uint32_t n = colour * light + 127U;
+#if EL_SMALL_CODE
+    return (uint16_t)(n / 255U);
+#else
     const uint32_t rest = (n >> 8) + (n & 255U);
     return (uint16_t)((n >> 8) + ((rest + 1U + (rest >> 8)) >> 8));
+#endif
 }
 
 /* Three channels of 8.8 for one of the mesh's vertices. */
@@ -79,49 +85,41 @@ static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turn
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
 }
 
-/* 1/w of the corners in one unit, the largest in [2^30, 2^31). */
-static void gather_w(const uint16_t w[3], const uint8_t shifts[3], el_corner corners[3])
+/* A corner as it was put on the list; of a thin record, as it would have been. */
+static void find_corner(const el_draw_state *draw, const el_record *record, el_record_kind kind, unsigned i,
+                        el_screen_vertex *vertex)
 {
-    unsigned least = 31;
-    for (unsigned i = 0; i < 3; i++) {
-        least = shifts[i] < least ? shifts[i] : least;
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        el_transform_vertex(&draw->transform, draw->mesh->positions[draw->mesh->triangles[record->index][i]], vertex);
+        return;
     }
-    for (unsigned i = 0; i < 3; i++) {
-        const uint32_t scaled = ((uint32_t)w[i] << 15) >> (shifts[i] - least);
-        corners[i].w = scaled == 0 ? 1U : scaled;
+    const el_point *const point = &record->at.points[i];
+    vertex->x = point->x;
+    vertex->y = point->y;
+    vertex->z = point->z;
+    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
+        const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
+        vertex->w = perspective->w[i];
+        vertex->w_shift = (perspective->w_shifts >> (5 * i)) & 31U;
     }
 }
 
-/* Where the corners are: from the record, or for a thin one from the mesh. */
+/* Where the corners are; of textured ones 1/w in one unit, the largest in [2^30, 2^31). */
 static void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind, el_corner corners[3])
 {
-    uint16_t w[3];
-    uint8_t shifts[3];
+    el_screen_vertex v[3];
     for (unsigned i = 0; i < 3; i++) {
-        el_corner *const corner = &corners[i];
-        if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
-            el_screen_vertex vertex;
-            el_transform_vertex(&draw->transform, draw->mesh->positions[draw->mesh->triangles[record->index][i]],
-                                &vertex);
-            corner->x = vertex.x;
-            corner->y = vertex.y;
-            corner->z = vertex.z;
-            w[i] = vertex.w;
-            shifts[i] = vertex.w_shift;
-            continue;
-        }
-        const el_point *const point = &record->at.points[i];
-        corner->x = point->x;
-        corner->y = point->y;
-        corner->z = point->z;
-        if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
-            const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
-            w[i] = perspective->w[i];
-            shifts[i] = (perspective->w_shifts >> (5 * i)) & 31U;
-        }
+        find_corner(draw, record, kind, i, &v[i]);
+        corners[i].x = v[i].x;
+        corners[i].y = v[i].y;
+        corners[i].z = v[i].z;
     }
     if (el_has_texture((el_shading)draw->material->shading)) {
-        gather_w(w, shifts, corners);
+        const int32_t least = el_min_i32(v[0].w_shift, el_min_i32(v[1].w_shift, v[2].w_shift));
+        for (unsigned i = 0; i < 3; i++) {
+            const uint32_t scaled = ((uint32_t)v[i].w << 15) >> (v[i].w_shift - least);
+            corners[i].w = scaled == 0 ? 1U : scaled;
+        }
     }
 }
 
@@ -136,9 +134,9 @@ static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
     return el_shows_back(draw, el_doubled_area(x, y));
 }
 
-void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
 {
-    const el_record_kind kind = el_list_kind(list, record);
+    const el_record_kind kind = (el_record_kind)el_list_run(list, record)->kind;
     const el_draw_state *const draw = el_list_draw(list, record);
     const el_shading shading = (el_shading)draw->material->shading;
     surface->shading = shading;
@@ -169,4 +167,5 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
             el_shade_vertex(draw, vertex, turned, corner->rgb_q8);
         }
     }
+    return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }

@@ -120,11 +120,6 @@ static inline const el_run *el_list_run(const el_list *list, const el_record *re
     return el_list_at(list, record->run);
 }
 
-static inline el_record_kind el_list_kind(const el_list *list, const el_record *record)
-{
-    return (el_record_kind)el_list_run(list, record)->kind;
-}
-
 static inline const el_draw_state *el_list_draw(const el_list *list, const el_record *record)
 {
     return el_list_at(list, el_list_run(list, record)->draw);
@@ -166,8 +161,9 @@ uint16_t el_list_take_bin(el_list *list, uint16_t band);
 /* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
 
-/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. */
-void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
+ * vertices it transformed for that. */
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
 
 #ifdef __cplusplus
 }

@@ -68,6 +68,15 @@ static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
 
+/* Moves the planes' values to the right. */
+static inline void go_on(el_texture_walk *walk, uint32_t pixels)
+{
+    const el_perspective *const p = walk->planes;
+    walk->w += el_multiply_u16(p->w.dx, pixels);
+    walk->u += el_multiply_u16(p->u.dx, pixels);
+    walk->v += el_multiply_u16(p->v.dx, pixels);
+}
+
 /* u and v where the planes' values are. */
 static inline void find_knot(el_texture_walk *walk)
 {
@@ -106,9 +115,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     walk->u = p->u.value;
     walk->v = p->v.value;
     if (skipped != 0) {
-        walk->w += el_plane_times(p->w.dx, skipped);
-        walk->u += el_plane_times(p->u.dx, skipped);
-        walk->v += el_plane_times(p->v.dx, skipped);
+        go_on(walk, (uint32_t)skipped);
     }
     walk->length = LENGTHS - 1;
     find_knot(walk);
@@ -166,8 +173,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
     if (left == 1) {
         return 1;
     }
-    const el_perspective *const p = walk->planes;
-    const uint64_t w_step = p->w.dx;
+    const uint64_t w_step = walk->planes->w.dx;
     const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
     const int32_t most = left - 1;
@@ -195,9 +201,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
     }
     walk->length = (uint8_t)(i < 0 ? 0 : i);
 
-    walk->w += el_multiply_u16(w_step, (uint32_t)length);
-    walk->u += el_multiply_u16(p->u.dx, (uint32_t)length);
-    walk->v += el_multiply_u16(p->v.dx, (uint32_t)length);
+    go_on(walk, (uint32_t)length);
     find_knot(walk);
     /* Differences over the length, rounded down: exact below 2^26, 1,024 texels, and one unit too much at most beyond. */
     walk->u_step_q16 = walk->next_u_q16 - walk->u_q16;

@@ -32,7 +32,7 @@ TOLERANCE = 0.03
 BUDGETS = {"all": 16 * 1024}
 
 _MODES = ("GOURAUD", "TEXTURE", "DITHER", "OVERDRAW", "LIGHT", "ORTHOGRAPHIC")
-_FASTER = ("STATS", "CARRY", "THIN")
+_FASTER = ("STATS", "CARRY")
 
 # Sets of options, by what base/options.h leaves out.
 OPTIONS: dict[str, tuple[str, ...]] = {
