@@ -75,7 +75,7 @@ static void place_vertices(drawing *d)
 
 static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
 {
-    if (d->direct) {
+    if (EL_SMALL_CODE && d->direct) {
         return (el_screen_vertex *)d->vertices + index;
     }
     cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
@@ -92,10 +92,15 @@ static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_verte
 #if EL_SMALL_CODE
     const bool apart = false;
 #else
+    if (d->direct) {
+        for (unsigned i = 0; i < 3; i++) {
+            v[i] = (el_screen_vertex *)d->vertices + indices[i];
+        }
+        return;
+    }
     const unsigned mask = d->slots - 1U;
-    const bool apart =
-        d->direct || (((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
-                      ((indices[2] ^ indices[0]) & mask) != 0);
+    const bool apart = ((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
+                       ((indices[2] ^ indices[0]) & mask) != 0;
 #endif
     for (unsigned i = 0; i < 3; i++) {
         v[i] = find_vertex(d, indices[i]);
