@@ -43,15 +43,15 @@ FRAMES: dict[str, tuple[str, dict[str, int]]] = {
 
 CODE_SOURCE = "arm-none-eabi-gcc 12.2.1, cortex-m0plus, -Os"
 CODE_OPTIONS: dict[str, int] = {
-    "all": 16194,
-    "no-gouraud": 15270,
+    "all": 16222,
+    "no-gouraud": 15298,
     "no-texture": 13379,
-    "no-dither": 15984,
-    "no-overdraw": 16164,
-    "no-light": 15844,
-    "no-orthographic": 15744,
-    "no-stats": 15952,
-    "no-carry": 15976,
+    "no-dither": 16012,
+    "no-overdraw": 16192,
+    "no-light": 15872,
+    "no-orthographic": 15772,
+    "no-stats": 15980,
+    "no-carry": 16004,
     "gouraud": 12729,
     "flat": 11499,
     "flat-smallest": 11049,

@@ -63,7 +63,11 @@ static inline uint32_t upper_word(uint64_t x, unsigned shift)
  * result, whose shift is at most 27, and one is cut off again. */
 static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
-    const int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
+    const int32_t sign = (int32_t)(u_q32 >> 32) >> 31;
+    int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
+    if ((upper ^ sign) < 0) {
+        upper = INT32_MAX ^ sign; /* the planes' rounding can bring |U| beyond W by a little */
+    }
     const int32_t ratio_q30 = el_multiply_high_i32_u32(upper, reciprocal);
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
