@@ -45,18 +45,20 @@ HEADERS = {
 }
 
 
+# Division, with its tables, of which a core with a divider has none.
+DIVISION = ["base/divide.c", "base/reciprocals.c"]
+
 # What a unit calls in others, so that its functions can be linked.
 COMPANIONS: dict[str, list[str]] = {
-    "base/divide.c": [],
+    "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
-    "geometry/transform.c": ["geometry/pose.c", "base/divide.c", "base/fixed.c", "base/angle.c"],
-    "geometry/clip.c": ["base/divide.c", "base/fixed.c"],
-    "raster/plane.c": ["base/divide.c"],
-    "raster/triangle.c": ["raster/plane.c", "base/divide.c", "base/fixed.c"],
-    "raster/texture_walk.c": ["base/divide.c"],
-    "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/divide.c", "base/fixed.c"],
-    "raster/gather.c": ["raster/plane.c", "base/divide.c"],
-    "frame/draw.c": [],
+    "geometry/transform.c": ["geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/clip.c": ["base/fixed.c", *DIVISION],
+    "raster/plane.c": DIVISION,
+    "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
+    "raster/texture_walk.c": DIVISION,
+    "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/fixed.c", *DIVISION],
+    "raster/gather.c": ["raster/plane.c", *DIVISION],
 }
 
 
