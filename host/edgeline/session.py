@@ -7,7 +7,7 @@ No I/O, and the time is an argument, so that tests drive it to the microsecond. 
 * A frame leaves as an event only if all of its bands arrived and its digest is that of the session's own picture.
 * After damage, a gap in seq or a wrong digest: KEY for all lines, once for as many frames as may be on their way.
 * INPUT that was given before the HELLO goes out ahead of START, so that the first frame shows it; to a device that has
-  been started anew all controls are told again.
+  been started anew all controls are told again, and after silence to one that is to stand still.
 * ACK for every FRAME_END, good or not. The credit has to go back either way, or two damaged frames would end it all.
 """
 
@@ -245,7 +245,9 @@ class Session:
             return []
         if self.state is State.READY and not restarted:
             return []
-        if self._inputs and (known is None or restarted):
+        # Where the scene stands still, telling again changes nothing if they had arrived; in silence they may not have.
+        stands_still = self._inputs.get(protocol.Control.PAUSE) == 1
+        if self._inputs and (known is None or restarted or stands_still):
             try:
                 _need_input(hello)
             except DeviceError as error:

@@ -141,6 +141,8 @@ def test_a_piped_stream_is_a_port(tmp_path: Path) -> None:
 
 def test_ctrl_c_ends_a_recording_and_keeps_it(tmp_path: Path) -> None:
     with PtyDevice(FakeDevice(), frame_s=0.02) as served:
+        # What a shell starts with & ignores Ctrl+C, and so do its children, the tests among them: not this one.
+        ignored = signal.signal(signal.SIGINT, signal.default_int_handler)
         recording = subprocess.Popen(
             [sys.executable, "-m", "edgeline", "record", "-p", served.port, "-o", "a.png", "--json"],
             cwd=tmp_path,
@@ -148,6 +150,7 @@ def test_ctrl_c_ends_a_recording_and_keeps_it(tmp_path: Path) -> None:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
+        signal.signal(signal.SIGINT, ignored)
         while len(served.device.sent) < 10:
             time.sleep(0.01)
         recording.send_signal(signal.SIGINT)

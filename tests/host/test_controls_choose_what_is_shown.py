@@ -61,6 +61,17 @@ def test_silence_alone_repeats_no_control() -> None:
     assert set(inputs_and_starts(talk.device)[2:]) == {Start(2)}
 
 
+def test_after_silence_a_scene_that_stands_still_is_told_again() -> None:
+    talk = Talk()
+    talk.session.input(Control.FRAME, 7)
+    talk.session.input(Control.PAUSE, 1)
+    talk.run(5)
+    talk.device.commands.clear()
+    talk.device.limit = 0
+    talk.run(200)
+    assert inputs_and_starts(talk.device)[:3] == [Input(2, 7), Input(3, 1), Start(2)]
+
+
 def test_a_device_that_takes_no_input_gets_none() -> None:
     early = Talk(FakeDevice(takes_input=False))
     early.session.input(Control.SCENE, 2)

@@ -14,6 +14,7 @@ the reals, of which the integers are a part.
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -22,6 +23,9 @@ from dataclasses import dataclass
 import z3
 
 Monomial = tuple["Atom", ...]
+
+# z3 needs a few seconds for the hardest question; the rest is for machines that have more to do than this.
+TIMEOUT_MS = 60_000
 
 
 class ProofError(AssertionError):
@@ -157,8 +161,9 @@ class Infeasible(Exception):
 class Path:
     """One path through a program: its decisions, and what is known on it."""
 
-    def __init__(self, decisions: list[bool]) -> None:
+    def __init__(self, decisions: list[bool], context: Callable[[], z3.Context] = z3.main_ctx) -> None:
         self._decisions = decisions
+        self._context = context
         self._taken = 0
         self.open: list[list[bool]] = []  # the other sides of the decisions that this path took first
         self.facts: list[Fact] = []
@@ -185,8 +190,8 @@ class Path:
     @property
     def _solver(self) -> z3.Solver:
         if self._made is None:
-            self._made = z3.SolverFor("QF_LIA")
-            self._made.set("timeout", 10_000)
+            self._made = z3.SolverFor("QF_LIA", ctx=self._context())
+            self._made.set("timeout", TIMEOUT_MS)
             for atom in self._atoms:
                 self._declare(atom)
             for fact in self.facts:
@@ -235,7 +240,7 @@ class Path:
 
     def _variable(self, monomial: Monomial) -> z3.ArithRef:
         if monomial not in self._variables:
-            self._variables[monomial] = z3.Int("*".join(atom.name for atom in monomial))
+            self._variables[monomial] = z3.Int("*".join(atom.name for atom in monomial), self._context())
             if len(monomial) > 1:
                 low, high = Poly({monomial: 1}).interval()
                 self._solver.add(self._variables[monomial] >= low, self._variables[monomial] <= high)
@@ -243,10 +248,10 @@ class Path:
 
     def _linear(self, poly: Poly) -> z3.ArithRef:
         terms = [
-            factor * self._variable(monomial) if monomial else z3.IntVal(factor)
+            factor * self._variable(monomial) if monomial else z3.IntVal(factor, self._context())
             for monomial, factor in poly.terms.items()
         ]
-        return z3.Sum(terms) if terms else z3.IntVal(0)
+        return z3.Sum(terms) if terms else z3.IntVal(0, self._context())
 
     def bounds(self, poly: Poly) -> tuple[int, int]:
         """Bounds by the cheap ways: intervals, and corners where they are tighter."""
@@ -440,10 +445,12 @@ def prove_over_reals(
 
 def every_path(body: Callable[[Path], None], limit: int = 20_000) -> int:
     """Runs body on each path; the number of paths that are possible. More than `limit` is an error, not an end."""
+    # A context of its own, if any: z3's answers, and the time they take, depend on what else it was asked in one.
+    context = functools.cache(z3.Context)
     pending: list[list[bool]] = [[]]
     count = tried = 0
     while pending:
-        path = Path(pending.pop())
+        path = Path(pending.pop(), context)
         tried += 1
         if tried > limit:
             raise ProofError(f"more than {limit} paths")

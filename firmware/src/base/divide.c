@@ -4,12 +4,14 @@
 
 #include "base/fixed.h"
 
+/* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
 EL_INLINE_HERE uint32_t el_first_guess(uint32_t d10);
 EL_INLINE_HERE uint32_t el_reciprocal_word(uint32_t d);
 EL_INLINE_HERE el_divisor el_divisor_make(uint32_t d);
 EL_INLINE_HERE uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder);
 EL_INLINE_HERE uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor);
 EL_INLINE_HERE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor);
+/* NOLINTEND(readability-redundant-declaration) */
 
 /* Sign and magnitude of n + fraction * 2^-32. */
 typedef struct magnitude {

@@ -1,7 +1,11 @@
 #include "base/fixed.h"
 
+_Static_assert((-3 >> 1) == -2, "Edgeline needs arithmetic right shifts");
+
+/* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
 EL_INLINE_HERE uint64_t el_multiply_u64(uint64_t a, int32_t b);
 EL_INLINE_HERE uint64_t el_product_u64(uint32_t a, uint32_t b);
+/* NOLINTEND(readability-redundant-declaration) */
 
 uint32_t el_sqrt_u64(uint64_t x)
 {

@@ -15,8 +15,6 @@
 #define EL_PRODUCTS_IN_HALVES
 #endif
 
-_Static_assert((-3 >> 1) == -2, "Edgeline needs arithmetic right shifts");
-
 /* Bits of x: 0 for 0, 32 for x >= 2^31. */
 static inline int el_bit_length_u32(uint32_t x)
 {

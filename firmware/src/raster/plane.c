@@ -2,8 +2,10 @@
 
 #include "base/fixed.h"
 
+/* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
 EL_INLINE_HERE uint64_t el_plane_times(uint64_t gradient, int32_t count);
 EL_INLINE_HERE int64_t el_doubled_area(const int32_t x[3], const int32_t y[3]);
+/* NOLINTEND(readability-redundant-declaration) */
 
 #if EL_SUBPIXEL_BITS == 4
 /* Negative where |difference| is more than EL_SMALL_SUB. */

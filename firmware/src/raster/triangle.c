@@ -122,10 +122,12 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
         el_edge_make(short_edge, x[0], y[0], x[1], y[1], y_begin);
         if (y_middle < y_end) {
             el_edge_make(&triangle->lower, x[1], y[1], x[2], y[2], y_middle);
+        } else {
+            triangle->y_middle = INT16_MAX;
         }
     } else {
         el_edge_make(short_edge, x[1], y[1], x[2], y[2], y_begin);
-        triangle->y_middle = triangle->y_end;
+        triangle->y_middle = INT16_MAX;
     }
 
     el_plane_frame frame;

@@ -47,7 +47,7 @@ typedef struct el_perspective {
 typedef struct el_triangle {
     el_surface surface;
     int16_t y;        /* next row */
-    int16_t y_middle; /* first row of the lower part */
+    int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none */
     int16_t y_end;
     bool short_is_left;  /* the side that bends at y_middle */
     el_edge left, right; /* of the current part */

@@ -37,7 +37,7 @@ GROUPS = {
         "wrong_per_1000_edge_pixels",
         "wrong pixels per 1000 edge pixels",
         "exact",
-        {"exact": "exact, quotient and rest", "rounded": "16.16 slopes", "tests": "edge test per pixel"},
+        {"exact": "exact, 64-bit slopes", "rounded": "16.16 slopes", "tests": "edge test per pixel"},
     ),
     "subpixel": Group(
         "sub-pixel bits, against unsnapped corners",
