@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from c_execution import Machine
+from c_execution import Contract, Machine
 from c_values import Cell, Number, Pointer
 from symbolic import Poly, require
 
@@ -90,12 +90,19 @@ def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
     return machine.exactly("uint32_t", path.new_quotient(Poly.of(WORD - 1), d, 0, WORD - 1))
 
 
-def plane_times(machine: Machine, arguments: list[Any]) -> Number:
-    """el_plane_times: gradient * count modulo 2^64. Pre: |count| < 2^22 (test_products_are_exact)."""
-    gradient, count = (argument.poly for argument in arguments)
-    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
-    turns = machine.path.atom("turns", -(2**90), 2**90)
-    return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
+def _times(name: str, most: int) -> Contract:
+    """gradient * count modulo 2^64. Pre: |count| < most (test_products_are_exact)."""
+
+    def contract(machine: Machine, arguments: list[Any]) -> Number:
+        gradient, count = (argument.poly for argument in arguments)
+        require(machine.path.within(count, 1 - most, most - 1), f"{name}: |count| < {most}")
+        turns = machine.path.atom("turns", -(2**90), 2**90)
+        return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
+
+    return contract
+
+
+plane_times, multiply_u64 = _times("el_plane_times", 1 << 22), _times("el_multiply_u64", 1 << 16)
 
 
 DIVISION = {
