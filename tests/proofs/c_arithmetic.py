@@ -152,8 +152,12 @@ class Arithmetic:
             a, b = b, a
         if b.constant == 0:
             return b if operator == "&" else a
-        if operator == "&" and b.constant is not None and b.constant & (b.constant + 1) == 0:
-            return a - self.path.floor(a, b.constant + 1) * (b.constant + 1)
+        if operator == "&" and b.constant is not None and b.constant > 0:
+            unit = b.constant & -b.constant
+            ones = b.constant // unit
+            if ones & (ones + 1) == 0:
+                upper = self.path.floor(a, unit)
+                return (upper - self.path.floor(upper, ones + 1) * (ones + 1)) * unit
         if operator == "^" and b.constant == (-1 if of.signed else of.high):
             return b - a
         if operator == "|":

@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 
 from c_execution import Contract, Lemma, Machine
-from c_source import ARMV6M, COMPANIONS, SOURCES, Fault, core_options, parse
+from c_source import ARMV6M, COMPANIONS, SMALL_CODE, SOURCES, Fault, core_options, parse
 from c_values import ArrayType, Cell, IntType, Number, Pointer, PointerType, StructType
 from symbolic import Fact, Infeasible, Path, Poly, ProofError, every_path, require
 
@@ -244,6 +244,7 @@ def _flat(value: Any) -> list[int | None]:
 __all__ = [
     "ARMV6M",
     "EVERY_PRECISION",
+    "SMALL_CODE",
     "Fact",
     "Fault",
     "Machine",

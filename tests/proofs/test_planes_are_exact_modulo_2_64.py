@@ -31,7 +31,18 @@ import pytest
 
 import contracts
 from c_values import IntType
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown, congruent
+from proof import (
+    EVERY_PRECISION,
+    SMALL_CODE,
+    Fault,
+    Machine,
+    Number,
+    Pointer,
+    Poly,
+    Subject,
+    as_unknown,
+    congruent,
+)
 from symbolic import require
 
 FILE = "raster/plane.c"
@@ -375,7 +386,6 @@ def plane(fraction: bool) -> Subject:
 
 
 # Of which each kind of code has its own way.
-SMALL_CODE = "EL_SMALL_CODE=1"
 CODES = pytest.mark.parametrize("core", ["", SMALL_CODE], ids=["fast", "small"])
 
 
