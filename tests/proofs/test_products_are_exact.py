@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
+import contracts
 from proof import ARMV6M, Fault, Machine, Number, Poly, Subject, congruent
 
 FIXED, FIXED_H, PLANE = "base/fixed.c", "base/fixed.h", "raster/plane.c"
 RING = 1 << 64
 MOST_PIXELS = 1 << 22  # el_plane_times
-MOST_ROW = 1 << 29  # el_dot_i32_i16
 
 
 def word(machine: Machine, name: str) -> Poly:
@@ -63,23 +63,30 @@ def high_domain(machine: Machine) -> list[Any]:
 
 
 def dot_domain(machine: Machine) -> list[Any]:
-    """Elements of a row, up to 2^29, in the two parts that the C has of them; the lower one of either sign."""
+    """A row's elements in the two parts that the C has of them, the lower one of either sign; |a| up to EL_DOT_MOST in
+    sum, so that the upper parts' |high| 2^15 add up to 3 * 2^14 more."""
     path = machine.path
-    row, position = [], []
+    row, position, magnitudes = [], [], Poly.of(0)
     for i in range(3):
-        high, low = path.atom(f"high{i}", -(2**14), 2**14), path.atom(f"low{i}", -(2**14), 2**14 - 1)
+        high, low = path.atom(f"high{i}", -(2**16), 2**16), path.atom(f"low{i}", -(2**14), 2**14 - 1)
+        b = path.atom(f"b{i}", -(2**15), 2**15 - 1)
         path.decide(low, -low - 1)
         row.append(high * 2**15 + low)
-        path.assume(MOST_ROW - row[i])
-        path.assume(MOST_ROW + row[i])
-        position.append(path.atom(f"b{i}", -(2**15), 2**15 - 1))
+        position.append(b)
+        if high.constant is not None:
+            magnitudes += abs(high.constant)
+            continue
+        magnitude = path.atom(f"|high{i}|", 0, 2**16)
+        for bound in (magnitude - high, magnitude + high, magnitude * 2**15 - high * b, magnitude * 2**15 + high * b):
+            path.assume(bound)
+        magnitudes += magnitude
+    path.assume(machine.constant(machine.unit.constants["EL_DOT_MOST"]) + 3 * 2**14 - magnitudes * 2**15)
     return [machine.array("int32_t", row), machine.array("int16_t", position)]
 
 
 def dot_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     a, b = ([machine.poly(cell) for cell in pointer.cells] for pointer in arguments)
-    exact = sum((x * y for x, y in zip(a, b, strict=True)), Poly.of(0))
-    machine.path.prove(result.poly - exact, "the sum of the products", zero=True)
+    machine.path.prove(result.poly - contracts.weighted(a, b), "the sum of the products", zero=True)
 
 
 def modulo_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -190,6 +197,7 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_multiply_high_i32_u32", FIXED_H, "- (a < 0 ? b : 0U)", "- (a < 0 ? b - 1U : 0U)"),
         ("el_dot_i32_i16", FIXED_H, "(uint32_t)a << 17) >> 17", "(uint32_t)a << 16) >> 16"),
         ("el_dot_i32_i16", FIXED_H, "((int32_t)high >> 17)", "(high >> 17)"),
+        ("el_dot_i32_i16", FIXED_H, "EL_DOT_MOST = 0x7FFF0000", "EL_DOT_MOST = 0x7FFF8000"),
         ("el_plane_times", "raster/plane.h", "(count + 0xFFFF) <= 2U * 0xFFFFU", "(count + 0xFFFF) <= 2U * 0x1FFFFU"),
         ("el_doubled_area", "raster/plane.h", "bias = 1U << 14", "bias = 1U << 15"),
     ],
