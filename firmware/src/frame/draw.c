@@ -57,6 +57,7 @@ static void place_vertices(drawing *d)
     } else {
         d->direct = false;
         bytes = (uint32_t)el_max_i32((int32_t)depth_bytes, (int32_t)(free_bytes / 8)) / 8 * 8;
+        /* NOLINTNEXTLINE(clang-analyzer-core.*): el_draw saw to it that there is room for a vertex at least. */
         d->slots = 1U << (el_bit_length_u32(bytes / (uint32_t)sizeof(cached_vertex)) - 1);
     }
     const uint32_t beside = bytes > depth_bytes ? bytes - depth_bytes : 0U;
@@ -86,7 +87,8 @@ static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
     return &slot->vertex;
 }
 
-/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache; in small code always. */
+/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache; in small code
+ * always. */
 static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
 {
 #if EL_SMALL_CODE
@@ -111,8 +113,9 @@ static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_verte
     }
 }
 
-/* The list is full. Makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there is
- * one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
+/* The list is full. Makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
+ * is one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's
+ * depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;
@@ -157,6 +160,7 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
 {
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
     for (unsigned i = 0; i < 3; i++) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a clipped record is made of a triangle that was cut. */
         const int32_t *const a = corners[i]->attributes;
         el_attributes *const attributes = &clipped->attributes[i];
         *attributes = (el_attributes){.u_q16 = a[U], .v_q16 = a[V]};

@@ -285,8 +285,8 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
     return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
 }
 
-/* A coarser unit leaves too few bits to d, or to the constant w: meshes of thousands of units before a camera whose picture is a
- * fraction of one across. */
+/* A coarser unit leaves too few bits to d, or to the constant w: meshes of thousands of units before a camera whose
+ * picture is a fraction of one across. */
 enum { MIN_UNIT_LOG2 = 0, MIN_W_BITS_ORTHOGRAPHIC = 8 };
 
 /* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32; w_log2: of the constant w. */

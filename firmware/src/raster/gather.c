@@ -115,8 +115,10 @@ static void gather_points(const el_draw_state *draw, const el_record *record, el
         corners[i].z = v[i].z;
     }
     if (el_has_texture((el_shading)draw->material->shading)) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.*): records of textured triangles have 1/w. */
         const int32_t least = el_min_i32(v[0].w_shift, el_min_i32(v[1].w_shift, v[2].w_shift));
         for (unsigned i = 0; i < 3; i++) {
+            /* NOLINTNEXTLINE(clang-analyzer-core.*): records of textured triangles have 1/w. */
             const uint32_t scaled = ((uint32_t)v[i].w << 15) >> (v[i].w_shift - least);
             corners[i].w = scaled == 0 ? 1U : scaled;
         }

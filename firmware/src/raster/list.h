@@ -117,12 +117,12 @@ static inline void *el_list_at(const el_list *list, uint16_t name)
 
 static inline const el_run *el_list_run(const el_list *list, const el_record *record)
 {
-    return el_list_at(list, record->run);
+    return (const el_run *)el_list_at(list, record->run);
 }
 
 static inline const el_draw_state *el_list_draw(const el_list *list, const el_record *record)
 {
-    return el_list_at(list, el_list_run(list, record)->draw);
+    return (const el_draw_state *)el_list_at(list, el_list_run(list, record)->draw);
 }
 
 static inline bool el_list_is_thin(const el_list *list)
@@ -151,8 +151,8 @@ el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_ki
  * the bin of row_begin. The run that takes records stays open. */
 void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end);
 
-/* With EL_WITH_THIN: makes the records of all whole triangles thin and closes the gaps. Triangles that begin above `row_begin` stay in its
- * bin. */
+/* With EL_WITH_THIN: makes the records of all whole triangles thin and closes the gaps. Triangles that begin above
+ * `row_begin` stay in its bin. */
 void el_list_make_thin(el_list *list, int32_t row_begin);
 
 /* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */

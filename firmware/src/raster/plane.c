@@ -74,7 +74,8 @@ typedef struct gradient {
     uint64_t dx, dy, offset;
 } gradient;
 
-/* `by_parts`: quotients per sub-pixel, truncated at 2^-32, and a pixel is EL_SUBPIXELS of them. The sums over the 1023 sub-pixels of a small triangle are off by less than 2^-20, where 2^-19 may be. */
+/* `by_parts`: quotients per sub-pixel, truncated at 2^-32, and a pixel is EL_SUBPIXELS of them. The sums over the 1023
+ * sub-pixels of a small triangle are off by less than 2^-20, where 2^-19 may be. */
 static inline void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int64_t d1, int64_t d2,
                                  unsigned fraction_bits, bool by_parts)
 {

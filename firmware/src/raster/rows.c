@@ -122,17 +122,17 @@ static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsi
     return (uint16_t)((s->red >> 27 << 11) | (s->green >> 26 << 5) | s->blue >> 27);
 }
 
-/* Whether the pixel is drawn; its depth is stored then. */
-static SPECIALISED bool passes(const span *s, uint16_t *depth, unsigned kind)
+/* Whether the pixel at depth[i] is drawn; its depth is stored then. Without DEPTH there may be no such array. */
+static SPECIALISED bool passes(const span *s, uint16_t *depth, int32_t i, unsigned kind)
 {
     if ((kind & DEPTH) == 0) {
         return true;
     }
     const uint32_t z = (uint32_t)(s->z >> 32); /* 0..65535: the plane stays within its corners' range */
-    if (z >= *depth) {
+    if (z >= depth[i]) {
         return false;
     }
-    *depth = (uint16_t)z;
+    depth[i] = (uint16_t)z;
     return true;
 }
 
@@ -150,10 +150,10 @@ static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsign
     span s = span_begin(triangle, r.skipped, kind);
     const uint16_t flat = triangle->surface.colour;
     uint16_t *const colour = r.colour + r.x_end;
-    uint16_t *const depth = r.depth + r.x_end;
+    uint16_t *const depth = r.depth + ((kind & DEPTH) != 0 ? r.x_end : 0);
     const uint32_t y = (uint32_t)triangle->y;
     for (int32_t i = r.x - r.x_end; i < 0; i++) {
-        if (passes(&s, &depth[i], kind)) {
+        if (passes(&s, depth, i, kind)) {
             colour[i] =
                 (kind & COLOURS) != 0 ? coloured(&s, el_dither_threshold_q16((uint32_t)(r.x_end + i), y), kind) : flat;
         }
@@ -180,7 +180,7 @@ static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsign
         const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
         const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
         for (int32_t i = -length; i < 0; i++) {
-            if (passes(&s, &depth[i], kind)) {
+            if (passes(&s, depth, i, kind)) {
                 const uint32_t texel = texel_at(&source, u_q16, v_q16);
                 colour[i] = (kind & COLOURS) != 0
                                 ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)(x + i), y), kind)

@@ -44,30 +44,19 @@ static int32_t log2_ceil_q8(uint64_t x)
     return (63 - leading) * 256 + log2_q8[(((x << leading) >> 56) & 127U) + 1U] + 1;
 }
 
-/* 1/w at a value of its plane; at covered pixels it lies between the corners', which are 1 at least. */
-static uint32_t whole(uint64_t w_q32)
-{
-    const uint32_t w = (uint32_t)(w_q32 >> 32);
-    return w == 0 ? 1U : w;
-}
-
 /* The upper word of x << shift, shift <= 31. */
 static inline uint32_t upper_word(uint64_t x, unsigned shift)
 {
     return (uint32_t)(x >> 32) << shift | (uint32_t)x >> 1 >> (31U - shift);
 }
 
-/* base + 2^shift U / W in Q16 texels, off by less than 3 units. At covered pixels |U| <= W < 2^31, so with both moved up by
- * W's leading zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with 2^63 / W is
- * 2^30 U / W, off by less than 3 for what is cut off and EL_RECIPROCAL_ERROR / 2 for the reciprocal: less than 2 units of the
- * result, whose shift is at most 27, and one is cut off again. */
+/* base + 2^shift U / W in Q16 texels, off by less than 3 units. |U| <= W < 2^31, so with both moved up by W's leading
+ * zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with 2^63 / W is 2^30 U / W,
+ * off by less than 3 for what is cut off and EL_RECIPROCAL_ERROR / 2 for the reciprocal: less than 2 units of the result,
+ * whose shift is at most 27, and one is cut off again. */
 static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
-    const int32_t sign = (int32_t)(u_q32 >> 32) >> 31;
-    int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
-    if ((upper ^ sign) < 0) {
-        upper = INT32_MAX ^ sign; /* the planes' rounding can bring |U| beyond W by a little */
-    }
+    const int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
     const int32_t ratio_q30 = el_multiply_high_i32_u32(upper, reciprocal);
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
@@ -85,9 +74,8 @@ static inline void go_on(el_texture_walk *walk, uint32_t pixels)
 static inline void find_knot(el_texture_walk *walk)
 {
     const el_perspective *const p = walk->planes;
-    const uint64_t w = walk->w >> 32 == 0 ? 1ULL << 32 : walk->w; /* as in whole() */
-    const unsigned w_shift = (unsigned)__builtin_clz((uint32_t)(w >> 32));
-    const uint32_t normalised = upper_word(w, w_shift);
+    const unsigned w_shift = (unsigned)__builtin_clz((uint32_t)(walk->w >> 32));
+    const uint32_t normalised = upper_word(walk->w, w_shift);
     const uint32_t reciprocal = el_reciprocal_near(normalised);
     walk->w_log2_q8 = log2_of_normalised_q8(normalised, w_shift);
     walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
@@ -115,7 +103,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
 {
     const el_perspective *const p = &triangle->perspective;
     walk->planes = p;
-    walk->w = p->w.value;
+    walk->w = p->w.value + EL_W_MARGIN_Q32;
     walk->u = p->u.value;
     walk->v = p->v.value;
     if (skipped != 0) {
@@ -131,7 +119,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     } else if (is_steep(&p->w) || is_steep(&p->u) || is_steep(&p->v)) {
         walk->limit_q8 = NEVER_Q8;
     } else {
-        const int32_t w = (int32_t)whole(walk->w);
+        const int32_t w = (int32_t)(uint32_t)(walk->w >> 32);
         const int32_t w_step_q4 = (int32_t)((int64_t)p->w.dx >> 28);
         const int32_t curvature = el_max_i32(curvature_q8(walk->u, &p->u, w, w_step_q4, p->u_shift),
                                              curvature_q8(walk->v, &p->v, w, w_step_q4, p->v_shift));
@@ -197,7 +185,7 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
         }
         const int32_t pixels = el_min_i32(lengths[i], most);
         const int32_t least_q8 =
-            falls ? log2_floor_q8(whole(walk->w + el_multiply_u16(w_step, (uint32_t)pixels))) : w_here_q8;
+            falls ? log2_floor_q8((uint32_t)((walk->w + el_multiply_u16(w_step, (uint32_t)pixels)) >> 32)) : w_here_q8;
         if (least_q8 >= walk->limit_q8 + length_q8[i]) {
             length = pixels;
             break;

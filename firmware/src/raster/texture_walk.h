@@ -22,9 +22,14 @@
 /* The longest piece, in pixels. */
 enum { EL_MAX_PIECE = 64 };
 
+/* Added to W. At covered pixels 1 <= W < 2^31 and |U| <= W, as at the corners; each plane is off by less than 2^-19 there, so
+ * with 2^-18 more, what is computed keeps to that. A knot moves by at most 2^-18 / W of u's range, which is less than 2^-8 of
+ * what the rounding of U at the corners may move it. */
+#define EL_W_MARGIN_Q32 (1U << 14)
+
 typedef struct el_texture_walk {
     const el_perspective *planes;
-    uint64_t w, u, v;     /* planes' values at the next knot, Q32 */
+    uint64_t w, u, v;     /* planes' values at the next knot, W with its margin, Q32 */
     int32_t u_q16, v_q16; /* texture coordinates at the piece's first pixel */
     int32_t u_step_q16, v_step_q16;
     int32_t next_u_q16, next_v_q16; /* at the next knot */
