@@ -59,8 +59,8 @@ class Subject:
 
         return every_path(body)
 
-    def fails_with(self, fault: Fault, bits: int = 4) -> None:
-        """The proof of the faulty source must fail."""
+    def fails_with(self, fault: Fault | None, bits: int = 4) -> None:
+        """The proof of the faulty source must fail; or of a domain that is too large."""
         with pytest.raises(ProofError):
             self.prove(bits, fault)
 
