@@ -130,9 +130,65 @@ static void test_a_covered_corner_has_its_texel(void)
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(5000U), covered);
 }
 
+/* A value that is so much at a span's first and last pixel, but for its last bits. */
+static el_plane plane_between(int64_t first, int64_t last, int32_t pixels)
+{
+    return (el_plane){.value = (uint64_t)first, .dx = (uint64_t)((last - first) / (pixels - 1))};
+}
+
+static int64_t at(const el_plane *plane, int32_t pixel)
+{
+    return (int64_t)(plane->value + plane->dx * (uint64_t)pixel);
+}
+
+/* U at an end of a span: anywhere within W, and often at its bound. */
+static int64_t any_u(seeded *s, int64_t w)
+{
+    const int64_t u = any_below(s, 2) == 0 ? w : (int64_t)(any_u64(s) % (uint64_t)w);
+    return any_below(s, 2) == 0 ? u : -u;
+}
+
+/* Whole walks against exact quotients at every pixel, from and to any W: also the lowest, whose fraction counts. */
+static void test_walks_keep_to_the_error(void)
+{
+    seeded s = seeded_from(4);
+    for (; s.round < PART_OF(40000U); s.round++) {
+        const int32_t pixels = (int32_t)any_between(&s, 2, 200);
+        const int64_t first = (1LL << 32) + (int64_t)any_of_bits(&s, 61);
+        const int64_t last = (1LL << 32) + (int64_t)any_of_bits(&s, 61);
+        el_triangle triangle = {.surface = {.uv_error_log2 = (uint8_t)any_between(&s, 1, 5)}};
+        el_perspective *const p = &triangle.perspective;
+        p->w = plane_between(first, last, pixels);
+        p->u = plane_between(any_u(&s, first), any_u(&s, last), pixels);
+        p->v = (el_plane){0};
+        p->u_shift = any_below(&s, 2) == 0 ? 27 : any_shift(&s);
+        p->v_shift = EL_PLANE_FRACTION_BITS;
+        el_texture_walk walk;
+        el_texture_walk_begin(&walk, &triangle, 0);
+        int32_t pixel = 0;
+        while (pixel < pixels) {
+            const int32_t length = el_texture_walk_piece(&walk, pixels - pixel);
+            for (int32_t i = 0; i < length; i++) {
+                const int64_t w = at(&p->w, pixel + i) + EL_W_MARGIN_Q32;
+                const int64_t exact_q24 =
+                    (int64_t)wide_quotient(wide_left(wide_of(at(&p->u, pixel + i)), p->u_shift + 8U), w).low;
+                const int64_t error_q24 = llabs((walk.u_q16 + (int64_t)i * walk.u_step_q16) * 256 - exact_q24);
+                if (error_q24 > 1LL << (24 - triangle.surface.uv_error_log2)) {
+                    fail_at(&s,
+                            "pixel %ld of %ld, W from %016llx to %016llx, shift %u: off by %lld / 256 of 2^-16 texel",
+                            (long)(pixel + i), (long)pixels, (unsigned long long)first, (unsigned long long)last,
+                            p->u_shift, (long long)error_q24);
+                }
+            }
+            pixel += length;
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_walks_keep_to_the_error);
     RUN_TEST(test_knots_are_exact_to_3_units);
     RUN_TEST(test_knots_at_the_edge_of_the_range);
     RUN_TEST(test_a_covered_corner_has_its_texel);

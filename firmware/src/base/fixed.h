@@ -133,11 +133,13 @@ static inline void el_add_halves(int32_t a, int32_t b, uint32_t *high, uint32_t 
 }
 #endif
 
-/* The sum of three products a[i] * b[i], |a[i]| < 2^29. */
+/* The sum of three products a[i] * b[i]. Pre: |a[0]| + |a[1]| + |a[2]| <= EL_DOT_MOST. */
+enum { EL_DOT_MOST = 0x7FFF0000 };
 static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    /* a = 2^15 high + low, |high| and |low| at most 2^14: each sum is at most 3 * 2^29. */
+    /* a = 2^15 high + low, |low| at most 2^14, and |high| 2^15 at most |a| + 2^14: the sum of the low products is at most
+     * 3 * 2^29, that of the high ones below 2^31. */
     uint32_t high = 0;
     uint32_t low = 0;
     el_add_halves(a[0], b[0], &high, &low);

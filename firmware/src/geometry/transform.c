@@ -149,8 +149,8 @@ static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
     return value;
 }
 
-/* The most that the form differs from its value at the centre, within a sphere that is a unit larger: the length of its
- * row, rounded up, times the radius. */
+/* The most that the form differs from its value at the centre, within a sphere that is a unit larger, and two at least:
+ * the length of its row, rounded up, times the radius. So a row is no longer than half of what coordinates may be. */
 static int64_t form_reach(const el_form *form, const el_mesh *mesh)
 {
     uint64_t all = 0;
@@ -163,7 +163,7 @@ static int64_t form_reach(const el_form *form, const el_mesh *mesh)
         const uint32_t part = (uint32_t)(el_abs_u64(form->at[i]) >> shift) + 1U;
         sum += (uint64_t)part * part;
     }
-    return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * (mesh->radius + 1U));
+    return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * ((uint32_t)el_max_i32(mesh->radius, 1) + 1U));
 }
 
 /* value * factor * 2^-shift, rounded. */
@@ -325,8 +325,8 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
         return EL_ERROR_RANGE;
     }
 
-    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 29. Meshes of a unit or
-     * two keep up to 31. */
+    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit EL_ROW_BITS. Meshes of a
+     * unit or two keep up to 30: a row is shorter than 2^30 then, and its elements add up to sqrt(3) of that. */
     uint64_t all = 0;
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {

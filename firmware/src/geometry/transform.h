@@ -69,7 +69,8 @@ typedef struct el_transform {
     uint8_t depth_shift;
     int8_t near_shift;
     uint16_t size[2];
-    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift; EL_ROW_BITS where shift > 1, else below 2^31 */
+    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift; the magnitudes of a row add up to
+                             EL_DOT_MOST at most */
     int64_t offsets[3];   /* |offset| < 2^62 */
     int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
     int32_t far;          /* likewise, or INT32_MAX */

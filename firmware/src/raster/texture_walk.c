@@ -83,14 +83,15 @@ static inline void find_knot(el_texture_walk *walk)
 }
 
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
- * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the fraction moves J by less than
- * W + |U|. */
+ * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the gradients' fraction moves J by less
+ * than W + |U| <= 2 W, cutting off that of U and W by less than |U'| + |W'|. */
 static int32_t curvature_q8(uint64_t value_q32, const el_plane *plane, int32_t w, int32_t w_step_q4, uint8_t shift)
 {
     const int32_t value = (int32_t)(uint32_t)(value_q32 >> 32);
     const int32_t step_q4 = (int32_t)((int64_t)plane->dx >> 28);
     const int64_t j_q4 = el_product_i32(step_q4, w) - el_product_i32(value, w_step_q4);
-    const uint64_t bound_q4 = el_abs_u64(j_q4) + (uint32_t)w + el_abs_u64(value);
+    const uint64_t cut_off_q4 = el_abs_u64(step_q4) + el_abs_u64(w_step_q4) + 2U * ((uint64_t)(uint32_t)w + 1U);
+    const uint64_t bound_q4 = el_abs_u64(j_q4) + cut_off_q4;
     return log2_ceil_q8(bound_q4) + shift * 256;
 }
 
