@@ -27,16 +27,26 @@ typedef struct drawing {
     el_draw_state state;
 } drawing;
 
-static void transform_vertices(drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
+static void transform_one(const drawing *d, uint16_t index, el_screen_vertex *screen)
 {
 #if EL_SMALL_CODE
-    for (uint32_t i = 0; i < count; i++) {
-        el_transform_vertex(&d->state.transform, d->mesh->positions[first + i], &screen[i]);
+    el_transform_vertex(&d->state.transform, d->mesh->positions[index], screen);
+#else
+    el_transform_vertex_in_view(&d->state.transform, d->mesh->positions[index], screen);
+#endif
+    el_count(&d->renderer->stats.vertices, 1);
+}
+
+static void transform_all(const drawing *d)
+{
+#if EL_SMALL_CODE
+    for (uint16_t i = 0; i < d->mesh->vertex_count; i++) {
+        transform_one(d, i, (el_screen_vertex *)d->vertices + i);
     }
 #else
-    el_transform_vertices(&d->state.transform, &d->mesh->positions[first], count, screen);
+    el_transform_vertices(&d->state.transform, d->mesh->positions, d->mesh->vertex_count, d->vertices);
+    el_count(&d->renderer->stats.vertices, d->mesh->vertex_count);
 #endif
-    el_count(&d->renderer->stats.vertices, count);
 }
 
 /* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
@@ -65,7 +75,7 @@ static void place_vertices(drawing *d)
     d->vertices = list_end + depth_bytes - bytes;
 
     if (d->direct) {
-        transform_vertices(d, 0, d->mesh->vertex_count, d->vertices);
+        transform_all(d);
         return;
     }
     cached_vertex *const cache = d->vertices;
@@ -82,7 +92,7 @@ static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
     cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
     if (slot->index != index) {
         slot->index = index;
-        transform_vertices(d, index, 1, &slot->vertex);
+        transform_one(d, index, &slot->vertex);
     }
     return &slot->vertex;
 }

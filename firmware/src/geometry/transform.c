@@ -555,17 +555,27 @@ void el_transform_vertex(const el_transform *transform, const int16_t position[3
 }
 
 #if !EL_SMALL_CODE
+static inline void transform_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    const el_clip_vertex vertex = position_of(transform, position);
+    if (is_in_view(transform, &vertex)) {
+        screen->code = 0;
+        project_inside(transform, &vertex, screen);
+    } else {
+        screen->code = (uint8_t)(el_outcode(transform, &vertex) | EL_CODE_LATER);
+    }
+}
+
+void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    transform_in_view(transform, position, screen);
+}
+
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
                            el_screen_vertex *screen)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const el_clip_vertex vertex = position_of(transform, positions[i]);
-        if (is_in_view(transform, &vertex)) {
-            screen[i].code = 0;
-            project_inside(transform, &vertex, &screen[i]);
-        } else {
-            screen[i].code = (uint8_t)(el_outcode(transform, &vertex) | EL_CODE_LATER);
-        }
+        transform_in_view(transform, positions[i], &screen[i]);
     }
 }
 #endif

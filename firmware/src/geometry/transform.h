@@ -112,7 +112,10 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
 /* All of what follows for one mesh position. */
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
-/* The same for `count` of them, but those outside the view are not projected: few of their triangles will ask for them. */
+/* The same, but a vertex outside the view is not projected: few of its triangles will ask for it. */
+void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
+
+/* That for `count` of them. */
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
                            el_screen_vertex *screen);
 

@@ -85,43 +85,55 @@ static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turn
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
 }
 
-/* A corner as it was put on the list; of a thin record, as it would have been. */
-static void find_corner(const el_draw_state *draw, const el_record *record, el_record_kind kind, unsigned i,
-                        el_screen_vertex *vertex)
+/* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
+static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const uint8_t shifts[3])
 {
-    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
-        el_transform_vertex(&draw->transform, draw->mesh->positions[draw->mesh->triangles[record->index][i]], vertex);
-        return;
-    }
-    const el_point *const point = &record->at.points[i];
-    vertex->x = point->x;
-    vertex->y = point->y;
-    vertex->z = point->z;
-    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
-        const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
-        vertex->w = perspective->w[i];
-        vertex->w_shift = (perspective->w_shifts >> (5 * i)) & 31U;
+    const int32_t least = el_min_i32(shifts[0], el_min_i32(shifts[1], shifts[2]));
+    for (unsigned i = 0; i < 3; i++) {
+        const uint32_t scaled = ((uint32_t)w[i] << 15) >> (shifts[i] - least);
+        corners[i].w = scaled == 0 ? 1U : scaled;
     }
 }
 
-/* Where the corners are; of textured ones 1/w in one unit, the largest in [2^30, 2^31). */
-static void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind, el_corner corners[3])
+/* Where the corners of a thin record are, as its vertices would have been listed. */
+static void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
 {
-    el_screen_vertex v[3];
+    uint16_t w[3];
+    uint8_t shifts[3];
     for (unsigned i = 0; i < 3; i++) {
-        find_corner(draw, record, kind, i, &v[i]);
-        corners[i].x = v[i].x;
-        corners[i].y = v[i].y;
-        corners[i].z = v[i].z;
+        el_screen_vertex v;
+        el_transform_vertex(&draw->transform, draw->mesh->positions[draw->mesh->triangles[record->index][i]], &v);
+        corners[i].x = v.x;
+        corners[i].y = v.y;
+        corners[i].z = v.z;
+        w[i] = v.w;
+        shifts[i] = v.w_shift;
     }
     if (el_has_texture((el_shading)draw->material->shading)) {
-        /* NOLINTNEXTLINE(clang-analyzer-core.*): records of textured triangles have 1/w. */
-        const int32_t least = el_min_i32(v[0].w_shift, el_min_i32(v[1].w_shift, v[2].w_shift));
+        scale_reciprocals(corners, w, shifts);
+    }
+}
+
+/* Where the corners are; of textured ones 1/w. */
+static void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind, el_corner corners[3])
+{
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        find_points(draw, record, corners);
+        return;
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        const el_point *const point = &record->at.points[i];
+        corners[i].x = point->x;
+        corners[i].y = point->y;
+        corners[i].z = point->z;
+    }
+    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
+        const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
+        uint8_t shifts[3];
         for (unsigned i = 0; i < 3; i++) {
-            /* NOLINTNEXTLINE(clang-analyzer-core.*): records of textured triangles have 1/w. */
-            const uint32_t scaled = ((uint32_t)v[i].w << 15) >> (v[i].w_shift - least);
-            corners[i].w = scaled == 0 ? 1U : scaled;
+            shifts[i] = (perspective->w_shifts >> (5 * i)) & 31U;
         }
+        scale_reciprocals(corners, perspective->w, shifts);
     }
 }
 

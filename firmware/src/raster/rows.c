@@ -322,29 +322,40 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
     draw_rows(triangle, target, stats, kind_of(&triangle->surface));
 }
 #else
-/* A loop of its own for each kind there is; kinds that options.h makes equal have one. */
-#define DRAW(kind)                                                                                                     \
-    if (asked == (kind)) {                                                                                             \
+/* A loop of its own for each kind there is, in a function of its own, so that none has the registers of another; kinds
+ * that options.h makes equal have one. */
+#define LOOPS(DO)                                                                                                      \
+    DO(flat, 0)                                                                                                        \
+    DO(flat_depth, DEPTH)                                                                                              \
+    DO(coloured, COLOURS)                                                                                              \
+    DO(coloured_depth, COLOURS | DEPTH)                                                                                \
+    DO(dithered, COLOURS | DITHER)                                                                                     \
+    DO(dithered_depth, COLOURS | DITHER | DEPTH)                                                                       \
+    DO(textured, TEXTURE)                                                                                              \
+    DO(textured_depth, TEXTURE | DEPTH)                                                                                \
+    DO(lit, TEXTURE | COLOURS)                                                                                         \
+    DO(lit_depth, TEXTURE | COLOURS | DEPTH)                                                                           \
+    DO(lit_dithered, TEXTURE | COLOURS | DITHER)                                                                       \
+    DO(lit_dithered_depth, TEXTURE | COLOURS | DITHER | DEPTH)                                                         \
+    DO(count, COUNT)
+
+#define DEFINE(name, kind)                                                                                             \
+    static __attribute__((noinline)) void rows_##name(el_triangle *triangle, const el_target *target, el_stats *stats) \
+    {                                                                                                                  \
         draw_rows(triangle, target, stats, (kind));                                                                    \
+    }
+LOOPS(DEFINE)
+
+#define CALL(name, kind)                                                                                               \
+    if (asked == (kind)) {                                                                                             \
+        rows_##name(triangle, target, stats);                                                                          \
         return;                                                                                                        \
     }
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
     const unsigned asked = kind_of(&triangle->surface);
-    DRAW(0)
-    DRAW(DEPTH)
-    DRAW(COLOURS)
-    DRAW(COLOURS | DEPTH)
-    DRAW(COLOURS | DITHER)
-    DRAW(COLOURS | DITHER | DEPTH)
-    DRAW(TEXTURE)
-    DRAW(TEXTURE | DEPTH)
-    DRAW(TEXTURE | COLOURS)
-    DRAW(TEXTURE | COLOURS | DEPTH)
-    DRAW(TEXTURE | COLOURS | DITHER)
-    DRAW(TEXTURE | COLOURS | DITHER | DEPTH)
-    DRAW(COUNT)
+    LOOPS(CALL)
 }
 #endif
 
