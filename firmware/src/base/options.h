@@ -82,4 +82,11 @@
 #define EL_INLINE_HERE static inline
 #endif
 
+/* Functions that are compiled anew into each caller, with what is known there, where speed counts. */
+#if EL_SMALL_CODE
+#define EL_SPECIALISED inline
+#else
+#define EL_SPECIALISED inline __attribute__((always_inline))
+#endif
+
 #endif

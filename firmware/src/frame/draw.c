@@ -84,12 +84,13 @@ static void place_vertices(drawing *d)
     }
 }
 
-static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
+static cached_vertex *slot_of(const drawing *d, uint16_t index)
 {
-    if (EL_SMALL_CODE && d->direct) {
-        return (el_screen_vertex *)d->vertices + index;
-    }
-    cached_vertex *const slot = (cached_vertex *)d->vertices + (index & (d->slots - 1U));
+    return (cached_vertex *)d->vertices + (index & (d->slots - 1U));
+}
+
+static inline el_screen_vertex *find_vertex(const drawing *d, cached_vertex *slot, uint16_t index)
+{
     if (slot->index != index) {
         slot->index = index;
         transform_one(d, index, &slot->vertex);
@@ -97,29 +98,39 @@ static el_screen_vertex *find_vertex(drawing *d, uint16_t index)
     return &slot->vertex;
 }
 
-/* A triangle's vertices at their places, or in `copies` where two of them share a slot of the cache; in small code
- * always. */
-static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
+/* A triangle's vertices at their places; false where two of them share a slot of the cache. */
+static inline bool find_in_place(const drawing *d, const uint16_t indices[3], el_screen_vertex *v[3])
 {
-#if EL_SMALL_CODE
-    const bool apart = false;
-#else
     if (d->direct) {
-        for (unsigned i = 0; i < 3; i++) {
-            v[i] = (el_screen_vertex *)d->vertices + indices[i];
-        }
+        el_screen_vertex *const all = d->vertices;
+        v[0] = all + indices[0];
+        v[1] = all + indices[1];
+        v[2] = all + indices[2];
+        return true;
+    }
+    cached_vertex *const a = slot_of(d, indices[0]);
+    cached_vertex *const b = slot_of(d, indices[1]);
+    cached_vertex *const c = slot_of(d, indices[2]);
+    if (a == b || b == c || c == a) {
+        return false;
+    }
+    v[0] = find_vertex(d, a, indices[0]);
+    v[1] = find_vertex(d, b, indices[1]);
+    v[2] = find_vertex(d, c, indices[2]);
+    return true;
+}
+
+/* The same, or where that does not do and in small code, copies. */
+static void find_vertices(const drawing *d, const uint16_t indices[3], el_screen_vertex *v[3],
+                          el_screen_vertex copies[3])
+{
+    if (!EL_SMALL_CODE && find_in_place(d, indices, v)) {
         return;
     }
-    const unsigned mask = d->slots - 1U;
-    const bool apart = ((indices[0] ^ indices[1]) & mask) != 0 && ((indices[1] ^ indices[2]) & mask) != 0 &&
-                       ((indices[2] ^ indices[0]) & mask) != 0;
-#endif
     for (unsigned i = 0; i < 3; i++) {
-        v[i] = find_vertex(d, indices[i]);
-        if (!apart) {
-            copies[i] = *v[i];
-            v[i] = &copies[i];
-        }
+        copies[i] = d->direct ? ((const el_screen_vertex *)d->vertices)[indices[i]]
+                              : *find_vertex(d, slot_of(d, indices[i]), indices[i]);
+        v[i] = &copies[i];
     }
 }
 
@@ -339,6 +350,19 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     }
 }
 
+/* Now a triangle needs them. Returns the bits of all three codes. */
+static unsigned transform_later(const drawing *d, const uint16_t indices[3], el_screen_vertex *const v[3])
+{
+    unsigned codes = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        if ((v[i]->code & EL_CODE_LATER) != 0) {
+            el_transform_vertex(&d->state.transform, d->mesh->positions[indices[i]], v[i]);
+        }
+        codes |= v[i]->code;
+    }
+    return codes;
+}
+
 static void draw_triangles(drawing *d)
 {
     el_stats *const stats = &d->renderer->stats;
@@ -352,15 +376,13 @@ static void draw_triangles(drawing *d)
             el_count(&stats->triangles_outside, 1);
             continue;
         }
-        const unsigned codes = v[0]->code | v[1]->code | v[2]->code;
+        unsigned codes = v[0]->code | v[1]->code | v[2]->code;
+        if (!EL_SMALL_CODE && (codes & EL_CODE_LATER) != 0) {
+            codes = transform_later(d, vertices, v);
+        }
         if ((codes & EL_CODE_CLIP) != 0) {
             clip_triangle(d, (uint16_t)i, (uint8_t)codes);
             continue;
-        }
-        for (unsigned k = 0; k < 3 && !EL_SMALL_CODE && (codes & EL_CODE_LATER) != 0; k++) {
-            if ((v[k]->code & EL_CODE_LATER) != 0) {
-                el_transform_vertex(&d->state.transform, d->mesh->positions[vertices[k]], v[k]);
-            }
         }
         add_triangle(d, (uint16_t)i, (const el_screen_vertex *const *)v, NULL);
     }

@@ -380,7 +380,7 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, cons
     return (int32_t)((uint32_t)(sum >> 32) << (32 - transform->shift) | (uint32_t)sum >> transform->shift);
 }
 
-static inline el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
+static EL_SPECIALISED el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
 {
     el_clip_vertex vertex;
     vertex.x = form_value(transform, 0, position);
@@ -395,29 +395,31 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     return position_of(transform, position);
 }
 
-/* EL_CODE_LEFT and _RIGHT, and _GUARD, of one coordinate, whatever it and w are: ~w is -w - 1, and v / 2^shift rounded down
- * compares with a whole number as v does with that number times 2^shift. */
-static unsigned side_code(int32_t v, int32_t w, unsigned guard_shift)
+/* The sides of the view that a vertex is beyond, whatever it and w are: ~w is -w - 1. */
+static inline unsigned outside_code(const el_transform *transform, const el_clip_vertex *vertex)
 {
-    unsigned code = 0;
-    if (v <= ~w) {
-        code |= EL_CODE_LEFT | (v >> guard_shift <= ~w ? EL_CODE_GUARD : 0U);
-    }
-    if (v > w) {
-        code |= EL_CODE_RIGHT | ((v - 1) >> guard_shift >= w ? EL_CODE_GUARD : 0U);
-    }
+    const int32_t w = vertex->w;
+    unsigned code = vertex->x <= ~w ? EL_CODE_LEFT : 0U;
+    code |= vertex->x > w ? EL_CODE_RIGHT : 0U;
+    code |= vertex->y <= ~w ? EL_CODE_BELOW : 0U;
+    code |= vertex->y > w ? EL_CODE_ABOVE : 0U;
+    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
+    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
     return code;
+}
+
+/* Of one coordinate: v / 2^shift rounded down compares with a whole number as v does with that number times 2^shift. */
+static bool is_beyond_guard(int32_t v, int32_t w, unsigned shift)
+{
+    return (v <= ~w && v >> shift <= ~w) || (v > w && (v - 1) >> shift >= w);
 }
 
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
 {
-    _Static_assert(EL_CODE_BELOW == EL_CODE_LEFT << 2 && EL_CODE_ABOVE == EL_CODE_RIGHT << 2, "y's codes follow x's");
-    const unsigned x = side_code(vertex->x, vertex->w, transform->guard_shift[0]);
-    const unsigned y = side_code(vertex->y, vertex->w, transform->guard_shift[1]);
-    unsigned code = x | (y & EL_CODE_GUARD) | (y & (EL_CODE_LEFT | EL_CODE_RIGHT)) << 2;
-    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
-    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    return (uint8_t)code;
+    const unsigned code = outside_code(transform, vertex);
+    const bool guard = is_beyond_guard(vertex->x, vertex->w, transform->guard_shift[0]) ||
+                       is_beyond_guard(vertex->y, vertex->w, transform->guard_shift[1]);
+    return (uint8_t)(code | (guard ? EL_CODE_GUARD : 0U));
 }
 
 /* middle + half * c / w in 1/EL_SUBPIXELS px, to the nearest, ties up.
@@ -562,7 +564,7 @@ static inline void transform_in_view(const el_transform *transform, const int16_
         screen->code = 0;
         project_inside(transform, &vertex, screen);
     } else {
-        screen->code = (uint8_t)(el_outcode(transform, &vertex) | EL_CODE_LATER);
+        screen->code = (uint8_t)(outside_code(transform, &vertex) | EL_CODE_LATER);
     }
 }
 

@@ -53,7 +53,7 @@ enum {
     EL_CODE_NEAR = 16,
     EL_CODE_FAR = 32,
     EL_CODE_GUARD = 64,  /* beyond the guard band */
-    EL_CODE_LATER = 128, /* not projected yet */
+    EL_CODE_LATER = 128, /* neither compared with the guard band nor projected yet */
     EL_CODE_OUTSIDE = EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE | EL_CODE_NEAR | EL_CODE_FAR,
     EL_CODE_CLIP = EL_CODE_NEAR | EL_CODE_FAR | EL_CODE_GUARD /* cannot be projected: its triangles are cut first */
 };

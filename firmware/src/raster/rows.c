@@ -1,15 +1,8 @@
 /* The loops: rows of a triangle, pixels of a span. Each shading, with and without depth, is the same code with its
- * choices made at compile time, so that none pays for another. */
+ * choices made at compile time, so that none pays for another; in small code one loop asks, in half the memory. */
 #include "base/dither.h"
 #include "raster/texture_walk.h"
 #include "raster/triangle.h"
-
-/* Each loop is compiled anew with its choices known, where speed counts; one loop that asks takes half the memory. */
-#if EL_SMALL_CODE
-#define SPECIALISED inline
-#else
-#define SPECIALISED inline __attribute__((always_inline))
-#endif
 
 /* Rounding to nearest at the end is made once, at the start of a span. Depth gets the bound of its plane's error more than
  * its half (plane.h): values exactly between two units, which truncated gradients leave a little too low, are rounded up like
@@ -35,7 +28,7 @@ enum {
     DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
 };
 
-static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
+static EL_SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
 {
     span s;
     if ((kind & DEPTH) != 0) {
@@ -56,7 +49,7 @@ static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped,
     return s;
 }
 
-static SPECIALISED void span_step(span *s, unsigned kind)
+static EL_SPECIALISED void span_step(span *s, unsigned kind)
 {
     if ((kind & DEPTH) != 0) {
         s->z += s->z_step;
@@ -76,7 +69,7 @@ typedef struct texel_source {
     unsigned v_down; /* from Q16 to whole texels times the width */
 } texel_source;
 
-static SPECIALISED texel_source source_of(const el_texture *texture)
+static EL_SPECIALISED texel_source source_of(const el_texture *texture)
 {
     return (texel_source){
         .texels = texture->texels,
@@ -86,33 +79,33 @@ static SPECIALISED texel_source source_of(const el_texture *texture)
     };
 }
 
-static SPECIALISED uint32_t texel_at(const texel_source *source, uint32_t u_q16, uint32_t v_q16)
+static EL_SPECIALISED uint32_t texel_at(const texel_source *source, uint32_t u_q16, uint32_t v_q16)
 {
     return source->texels[((v_q16 >> source->v_down) & source->v_mask) | ((u_q16 >> 16) & source->u_mask)];
 }
 
 /* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
  * by the smallest threshold. */
-static SPECIALISED uint32_t fraction_q16(uint32_t plus_half_q24)
+static EL_SPECIALISED uint32_t fraction_q16(uint32_t plus_half_q24)
 {
     return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
 }
 
 /* A channel of a texel times light / 255, where 255 leaves it as it is. */
-static SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
 {
     return (kind & DITHER) != 0 ? el_dither(fraction_q16(light), channel, threshold_q16)
                                 : (channel * ((light >> 24) + 1U)) >> 8;
 }
 
-static SPECIALISED uint16_t modulate(uint32_t texel, const span *s, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint16_t modulate(uint32_t texel, const span *s, uint32_t threshold_q16, unsigned kind)
 {
     return (uint16_t)(lit(texel >> 11, s->red, threshold_q16, kind) << 11 |
                       lit((texel >> 5) & 63U, s->green, threshold_q16, kind) << 5 |
                       lit(texel & 31U, s->blue, threshold_q16, kind));
 }
 
-static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsigned kind)
 {
     if ((kind & DITHER) != 0) {
         return (uint16_t)(el_dither(fraction_q16(s->red), 31, threshold_q16) << 11 |
@@ -123,7 +116,7 @@ static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsi
 }
 
 /* Whether the pixel at depth[i] is drawn; its depth is stored then. Without DEPTH there may be no such array. */
-static SPECIALISED bool passes(const span *s, uint16_t *depth, int32_t i, unsigned kind)
+static EL_SPECIALISED bool passes(const span *s, uint16_t *depth, int32_t i, unsigned kind)
 {
     if ((kind & DEPTH) == 0) {
         return true;
@@ -145,7 +138,7 @@ typedef struct row {
 } row;
 
 /* In one colour or in the vertices' colours. Counting up to 0 from the row's end leaves one number to step. */
-static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
+static EL_SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
 {
     span s = span_begin(triangle, r.skipped, kind);
     const uint16_t flat = triangle->surface.colour;
@@ -162,7 +155,7 @@ static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsign
 }
 
 /* With a texture, in pieces along which texture coordinates are linear. */
-static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
+static EL_SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
 {
     span s = span_begin(triangle, r.skipped, kind);
     const texel_source source = source_of(triangle->surface.texture);
@@ -194,7 +187,7 @@ static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsign
 }
 
 /* Overdraw: the picture counts. */
-static SPECIALISED void draw_count(row r)
+static EL_SPECIALISED void draw_count(row r)
 {
     for (int32_t x = r.x; x < r.x_end; x++) {
         r.colour[x]++;
@@ -202,7 +195,7 @@ static SPECIALISED void draw_count(row r)
 }
 
 /* A plane's way along the left edge: its whole step, and a pixel more where its fraction ran over. */
-static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
+static EL_SPECIALISED void plane_next_row(el_plane *plane, bool carry)
 {
     plane->value += plane->down;
     if (carry) {
@@ -210,12 +203,12 @@ static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
     }
 }
 
-static SPECIALISED void channel_next_row(el_channel *channel, bool carry)
+static EL_SPECIALISED void channel_next_row(el_channel *channel, bool carry)
 {
     channel->value += channel->down + (carry ? channel->dx : 0U);
 }
 
-static SPECIALISED void next_row(el_triangle *triangle, unsigned kind)
+static EL_SPECIALISED void next_row(el_triangle *triangle, unsigned kind)
 {
     const uint32_t fraction = (uint32_t)triangle->left.x_q32;
     el_edge_next_row(&triangle->left);
@@ -266,7 +259,7 @@ static void bend(el_triangle *triangle, unsigned kind)
     }
 }
 
-static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+static EL_SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     const int32_t y_end = triangle->y_end < target->y_end ? triangle->y_end : target->y_end;
     const int32_t width = target->width;

@@ -159,6 +159,37 @@ static inline uint32_t reciprocal_of(int32_t length)
 }
 #endif
 
+/* The longest piece that keeps to the error, `most` pixels at most. */
+static inline int32_t piece_length(el_texture_walk *walk, int32_t most)
+{
+    const uint64_t w_step = walk->planes->w.dx;
+    int32_t i = walk->length;
+    if ((int64_t)w_step >= 0) {
+        /* W grows, and so do pieces. */
+        const int32_t room_q8 = walk->w_log2_q8 - walk->limit_q8;
+        while (i < LENGTHS - 1 && room_q8 >= length_q8[i + 1]) {
+            i++;
+        }
+        while (i >= 0 && room_q8 < length_q8[i]) {
+            i--;
+        }
+    } else {
+        for (; i >= 0; i--) {
+            /* Longer than what is left of the span: as good as the shortest that is. */
+            if (i > 0 && lengths[i - 1] >= most) {
+                continue;
+            }
+            const uint32_t pixels = (uint32_t)el_min_i32(lengths[i], most);
+            const uint32_t least = (uint32_t)((walk->w + el_multiply_u16(w_step, pixels)) >> 32);
+            if (log2_floor_q8(least) >= walk->limit_q8 + length_q8[i]) {
+                break;
+            }
+        }
+    }
+    walk->length = (uint8_t)el_max_i32(i, 0);
+    return i < 0 ? 1 : el_min_i32(lengths[i], most);
+}
+
 int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
 {
     walk->u_q16 = walk->next_u_q16;
@@ -166,34 +197,8 @@ int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
     if (left == 1) {
         return 1;
     }
-    const uint64_t w_step = walk->planes->w.dx;
-    const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
-    const int32_t most = left - 1;
-    const int32_t w_here_q8 = walk->w_log2_q8;
-    int32_t i = walk->length;
-    if (!falls) {
-        /* W grows, so pieces do. */
-        while (i < LENGTHS - 1 && w_here_q8 >= walk->limit_q8 + length_q8[i + 1]) {
-            i++;
-        }
-    }
-    int32_t length = 1;
-    for (; i >= 0; i--) {
-        /* Shorter lengths than what is left of the span need not be tried: a piece is no longer than that. */
-        if (i > 0 && lengths[i - 1] >= most) {
-            continue;
-        }
-        const int32_t pixels = el_min_i32(lengths[i], most);
-        const int32_t least_q8 =
-            falls ? log2_floor_q8((uint32_t)((walk->w + el_multiply_u16(w_step, (uint32_t)pixels)) >> 32)) : w_here_q8;
-        if (least_q8 >= walk->limit_q8 + length_q8[i]) {
-            length = pixels;
-            break;
-        }
-    }
-    walk->length = (uint8_t)(i < 0 ? 0 : i);
-
+    const int32_t length = piece_length(walk, left - 1);
     go_on(walk, (uint32_t)length);
     find_knot(walk);
     /* Differences over the length, rounded down: exact below 2^26, 1,024 texels, and one unit too much at most beyond. */
