@@ -317,9 +317,9 @@ def step(core: str = "") -> Subject:
 def piece_domain(machine: Machine) -> list[Any]:
     """A walk at any place of any span, its limit as el_texture_walk_begin makes it.
 
-    Where W grows the walk begins with the length at which it goes on to look: had it begun with a shorter one, it would
-    have come to the same, and would know more. A length that is not good enough, or too long for what is left of the
-    span, leaves it where it would be had it begun with the next shorter one: that is a path of its own.
+    Where W grows, the length that is found depends on W alone, wherever the search begins: here it begins with that
+    length, or with the longest. Where W falls, one that is not good enough, or too long for what is left of the span,
+    leaves the search where it would be had it begun with the next shorter one: that is a path of its own.
     """
     path = machine.path
     never, count = (machine.constant(machine.unit.constants[name]) for name in ("NEVER_Q8", "LENGTHS"))
@@ -573,7 +573,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("step", FILE, "477218589U", "477218689U"),
         ("step, small code", FILE, "(uint32_t)length + 1U", "((uint32_t)length + 1U)"),
         ("piece", FILE, "piece_length(walk, left - 1)", "piece_length(walk, left)"),
-        ("piece", FILE, "(log2_floor_q8(least) >= walk->limit_q8 + length_q8[i])", "(log2_floor_q8(least) >= walk->limit_q8)"),
+        ("piece", FILE, "(least) >= walk->limit_q8 + length_q8[i])", "(least) >= walk->limit_q8)"),
         ("piece", FILE, "i >= 0 && room_q8 < length_q8[i]", "i >= 0 && room_q8 < 0"),
         ("piece", FILE, "walk->next_v_q16 - walk->v_q16", "walk->next_v_q16 - walk->u_q16"),
         ("begin", FILE, "el_abs_u64(w_step_q4) + 1U", "el_abs_u64(w_step_q4)"),
