@@ -1,8 +1,8 @@
 """The firmware's C, as syntax trees: what the proofs execute is the source itself.
 
 A unit is one source file with all that it includes, as the C preprocessor leaves it for a given EL_SUBPIXEL_BITS and
-a core, or a size, that it may be written differently for. A seeded fault is a unit in which one piece of text, which must occur
-exactly once, was replaced.
+a core, or a size, that it may be written differently for. A seeded fault is a unit in which one piece of text, which
+must occur exactly once, was replaced.
 """
 
 from __future__ import annotations

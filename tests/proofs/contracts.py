@@ -1,4 +1,4 @@
-"""What callers may rely on about division and products, after the proofs that are named for them."""
+"""What callers may rely on about division, products, planes and knots, after the proofs that are named for them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,14 @@ from c_values import Cell, Number, Pointer
 from symbolic import Poly, require
 
 WORD = 1 << 32
+
+# At a covered pixel a plane is off by less than so many units of 2^-32 (test_planes_are_exact_modulo_2_64).
+PLANE_ERROR = 8161
+
+# Texture coordinates are within TEXELS of 0; knots of theirs are off by less than KNOT_ERROR units of 2^-16 texel, and
+# within MOST_KNOT of 0 (test_texture_knots_keep_within_3_units).
+TEXELS, KNOT_ERROR = 2048, 3
+MOST_KNOT = (TEXELS << 16) + 2**27 + 1
 
 
 def divide_words(machine: Machine, arguments: list[Any]) -> Number:

@@ -111,22 +111,24 @@ def test_the_reciprocal_of_every_normalised_divisor(tmp_path: FilePath, text: st
     assert first_wrong(tmp_path, text, core=core) == ""
 
 
+TABLE = "base/reciprocals.c"
+
+
 @pytest.mark.parametrize(
-    ("text", "core", "file", "old", "new"),
+    ("text", "core", "fault"),
     [
-        (EVERY_DIVISOR, "", HEADER, "(d >> 11) + 1U", "(d >> 11)"),
-        (EVERY_DIVISOR, "", HEADER, "(v1, e) >> 33", "(v1, e) >> 34"),
-        (EVERY_NEAR, "", HEADER, "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 17"),
-        (EVERY_NEAR, "", HEADER, "0x7FFFFFFFU - product", "0x80000010U - product"),
-        (EVERY_ENTRY, ARMV6M, HEADER, "* (left >> 5)) >> 24", "* (left >> 5)) >> 25"),
-        (EVERY_ENTRY, ARMV6M, "base/reciprocals.c", "0x7FE1, 0x7FA1", "0x7FE1, 0x7FA2"),
-        (EVERY_ENTRY, ARMV6M, "base/reciprocals.c", "0x00804020", "0x00804021"),
+        (EVERY_DIVISOR, "", Fault(HEADER, "(d >> 11) + 1U", "(d >> 11)")),
+        (EVERY_DIVISOR, "", Fault(HEADER, "(v1, e) >> 33", "(v1, e) >> 34")),
+        (EVERY_NEAR, "", Fault(HEADER, "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 17")),
+        (EVERY_NEAR, "", Fault(HEADER, "0x7FFFFFFFU - product", "0x80000010U - product")),
+        (EVERY_ENTRY, ARMV6M, Fault(HEADER, "* (left >> 5)) >> 24", "* (left >> 5)) >> 25")),
+        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x7FE1, 0x7FA1", "0x7FE1, 0x7FA2")),
+        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x00804020", "0x00804021")),
     ],
+    ids=lambda value: value.new if isinstance(value, Fault) else "",
 )
-def test_the_check_of_every_divisor_can_fail(
-    tmp_path: FilePath, text: str, core: str, file: str, old: str, new: str
-) -> None:
-    tree = faulty_tree(tmp_path / "tree", Fault(file, old, new))
+def test_the_check_of_every_divisor_can_fail(tmp_path: FilePath, text: str, core: str, fault: Fault) -> None:
+    tree = faulty_tree(tmp_path / "tree", fault)
     assert first_wrong(tmp_path, text, tree, core).startswith("the reciprocal of")
 
 

@@ -1,24 +1,25 @@
 """geometry/transform: what project_inside computes from a reciprocal that is only near is what el_project has.
 
-Let N = w 2^s be the normalised divisor, 2^31 <= N < 2^32, and r = el_reciprocal_near(N). With k = 2^63 - r N, proven for
-every N, 1 <= k < E N, E = EL_RECIPROCAL_ERROR = 18.
+Let N = w 2^s be the normalised divisor, 2^31 <= N < 2^32, and r = el_reciprocal_near(N). With k = 2^63 - r N, proven
+for every N, 1 <= k < E N, E = EL_RECIPROCAL_ERROR = 18.
 
-Snapping. With m = w + c in [0, 2 w], middle + half c / w is half m / w, to the nearest. M = m 2^(s - 1) is at most N, and
-half m / w = 2 half M / N. M r = 2^32 ratio + f gives
+Snapping. With m = w + c in [0, 2 w], middle + half c / w is half m / w, to the nearest. M = m 2^(s - 1) is at most N,
+and half m / w = 2 half M / N. M r = 2^32 ratio + f gives
 
     2^32 (2^31 M - N ratio) = f N + M k,    so 0 <= 2^31 M - N ratio < (E + 1) N.
 
-Times half that is the sum before rounding, which the C has too low by less than 20 half units of 2^-30. Where its fraction
-is not that near to the next whole number, the whole part o is the nearest: 0 <= 4 half M + N - 2 N o < 2 N, which is the
-same with m and w for M and N.
+Times half that is the sum before rounding, which the C has too low by less than 20 half units of 2^-30. Where its
+fraction is not that near to the next whole number, the whole part o is the nearest: 0 <= 4 half M + N - 2 N o < 2 N,
+which is the same with m and w for M and N.
 
 Depth. near = n 2^near_shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N
 count. n r = 2^32 ratio + f gives
 
     2^32 (2^31 n - ratio N) = f N + n k,    so 0 <= 2^31 n - ratio N < (E + 1) N,
 
-and depth_of has q = floor(2^32 near / w), 2^32 - 1 where near = w: 2^e q < 2 ratio + 2 (E + 1) and 2 ratio < 2^e (q + 1).
-Times the scale, both depths are within the units that are kept free on both sides of the fraction.
+and depth_of has q = floor(2^32 near / w), 2^32 - 1 where near = w: 2^e q < 2 ratio + 2 (E + 1) and
+2 ratio < 2^e (q + 1). Times the scale, both depths are within the units that are kept free on both sides of the
+fraction.
 
 1 / w. el_divisor_make has V = floor((2^64 - 1) / N), and 2 r <= V < 2 r + 2 E: what is rounded to 16 bits is the same
 where r is not as near as that to the next one.
@@ -82,8 +83,9 @@ class Asked:
     def __init__(self, machine: Machine, arguments: list[Any]) -> None:
         transform, vertex = arguments[0].cell, arguments[1].cell
         self.w = machine.poly(vertex, "w")
-        sides = (self.w + machine.poly(vertex, "x"), self.w - machine.poly(vertex, "y"))
-        self.sides = {axis: (side, machine.poly(transform, "size", i)) for i, (axis, side) in enumerate(zip("xy", sides))}
+        sizes = [machine.poly(transform, "size", i) for i in range(2)]
+        x, y = machine.poly(vertex, "x"), machine.poly(vertex, "y")
+        self.sides = {"x": (self.w + x, sizes[0]), "y": (self.w - y, sizes[1])}
         self.exact = {axis: machine.path.atom(axis, 0, 32640) for axis in "xy"}
         self.exact["z"] = machine.path.atom("z", 0, 65534)
         self.exact["w"] = machine.path.atom("w", 2**15, 2**16 - 1)
@@ -366,7 +368,8 @@ def keep_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     v = KEPT.pop(id(machine.path))
     if result.poly.constant == 0:
         return
-    divisor, exact = machine.struct("el_divisor", reciprocal=v, shift=arguments[1].poly), machine.struct("el_screen_vertex")
+    divisor = machine.struct("el_divisor", reciprocal=v, shift=arguments[1].poly)
+    exact = machine.struct("el_screen_vertex")
     machine.call("keep_reciprocal", Pointer([exact]), Pointer([divisor]))
     for name in ("w", "w_shift"):
         machine.path.prove(machine.poly(arguments[0].cell, name) - machine.poly(exact, name), name, zero=True)

@@ -25,8 +25,6 @@ from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, co
 from symbolic import Infeasible, require
 
 ROWS, GATHER = "raster/rows.c", "raster/gather.c"
-SCREEN = 2040
-PLANE_ERROR = 1 + 2 * (2 * SCREEN)  # units of 2^-32, and less
 COLOUR_ERROR = 4080  # units of 2^-24, and less
 HALF_Q24 = 128 << 16
 LEAST_COLOUR, MOST_COLOUR = HALF_Q24 - COLOUR_ERROR, (255 << 24) + HALF_Q24 + COLOUR_ERROR
@@ -35,7 +33,7 @@ WORD = 1 << 32
 
 
 def test_colours_do_not_wrap() -> None:
-    assert PLANE_ERROR <= 1 << 13, "HALF_Q32's little more"
+    assert contracts.PLANE_ERROR <= 1 << 13, "HALF_Q32's little more"
     assert LEAST_COLOUR >= 0 and MOST_COLOUR < 1 << 32
 
 
@@ -103,7 +101,10 @@ def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
         half = added.terms.get((), 0) % modulus(name)
         congruent(added, Poly.of(half), modulus(name), "the value at the first pixel of the screen, and")
         if name == "z":
-            require((1 << 31) + PLANE_ERROR <= half <= (1 << 32) - PLANE_ERROR, "a half and the plane's error")
+            require(
+                (1 << 31) + contracts.PLANE_ERROR <= half <= (1 << 32) - contracts.PLANE_ERROR,
+                "a half and the plane's error",
+            )
         else:
             require(half == 0, "nothing: its half is in it")
     machine.call("span_step", Pointer([result]), of)
@@ -276,8 +277,10 @@ LIT_SMALL = replace(LIT, core=SMALL_CODE)
 
 
 def flat_domain(machine: Machine) -> list[Any]:
-    """One draw of one triangle, lit or not, with the mean of its vertices or with the first, in a colour of its own or in
-    theirs; the light is proven above."""
+    """One draw of one triangle, lit or not, with the mean of its vertices or with the first, or in a colour of its own.
+
+    The light is proven above.
+    """
     path = machine.path
     material, mesh, draw = (machine.struct(name) for name in ("el_material", "el_mesh", "el_draw_state"))
     mean, own, lit = (path.choose(path.atom(name, 0, 1)) for name in ("mean", "own", "lit"))

@@ -14,9 +14,9 @@ eo + ex (i - column) + ey (j - row), where an e is what a truncation cut off, be
 At a covered pixel the plane's value is a mean of the corners' with weights that are not negative, the edge functions
 over A, so it lies between the corners' values, which fit 32 bits: that is why the modulus loses nothing.
 
-Of small triangles, quotients are per sub-pixel, f a / A and f b / A, and Z = f v0 + Qx X + Qy Y: times A it differs from
-the plane by ex X + ey Y. X and Y are means of the corners' at covered pixels, too, so at most EL_SMALL_SUB: Z is off by
-less than 2046 units.
+Of small triangles, quotients are per sub-pixel, f a / A and f b / A, and Z = f v0 + Qx X + Qy Y: times A it differs
+from the plane by ex X + ey Y. X and Y are means of the corners' at covered pixels, too, so at most EL_SMALL_SUB: Z is
+off by less than 2046 units.
 
 Of colours, 8.8, each of the three that the C has, the offset and those per pixel and row, is rounded to 2^-24. In these
 units each is off by at most 1/2 and what truncation cut off, and the value by less than 8160 / 2 < 2^12.
@@ -167,7 +167,9 @@ def anchored(machine: Machine, arguments: list[Any]) -> Any:
 CENTRES: dict[int, list[Poly]] = {}
 
 
-def frame_of(machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool) -> tuple[Any, tuple[Poly, ...]]:
+def frame_of(
+    machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool
+) -> tuple[Any, tuple[Poly, Poly, Poly, Poly]]:
     """A frame at any first pixel of the left edge's, with any of its steps."""
     path, guard = machine.path, machine.constant(machine.unit.constants["EL_GUARD_SUB"])
     first = path.atom("first_x", -2041, 2041), path.atom("first_row", 0, SCREEN - 1)
@@ -301,7 +303,7 @@ def check_quotients(machine: Machine, frame: Any, f: int) -> Sum:
         require(furthest <= MOST_PIXELS, "the furthest pixel")
     z = values[0] * f + made.offset + made.dx * columns + made.dy * rows
     require((z * area - plane_at - error).constant == 0, "Z A is the plane and what was cut off")
-    require(furthest < 2 ** (32 - 19), "the error is below 2^-19")
+    require(furthest < contracts.PLANE_ERROR < 2 ** (32 - 19), "the error is below 2^-19")
 
     # The plane goes through the corners, and is their mean with the edge functions as weights.
     px, py = path.atom("px", -(2**20), 2**20), path.atom("py", -(2**20), 2**20)

@@ -32,8 +32,10 @@ def constant_of(machine: Machine, name: str) -> int:
 
 
 def form_domain(machine: Machine) -> list[Any]:
-    """|offset| < 2^62, rows as el_dot_i32_i16 has them, positions of 16 bits, a shift of 1..31, and the sum within 32 bits
-    after it."""
+    """|offset| < 2^62, rows as el_dot_i32_i16 has them, positions of 16 bits, a shift of 1..31.
+
+    The sum is within 32 bits after it.
+    """
     path = machine.path
     rows = [path.atom(f"row{i}", *I32) for i in range(3)]
     for signs in itertools.product((1, -1), repeat=3):
