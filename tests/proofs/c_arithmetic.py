@@ -152,10 +152,14 @@ class Arithmetic:
             a, b = b, a
         if b.constant == 0:
             return b if operator == "&" else a
-        if operator == "&" and b.constant is not None and b.constant & (b.constant + 1) == 0:
-            return a - self.path.floor(a, b.constant + 1) * (b.constant + 1)
-        if operator == "^" and b.constant == of.high and not of.signed:
-            return of.high - a
+        if operator == "&" and b.constant is not None and b.constant > 0:
+            unit = b.constant & -b.constant
+            ones = b.constant // unit
+            if ones & (ones + 1) == 0:
+                upper = self.path.floor(a, unit)
+                return (upper - self.path.floor(upper, ones + 1) * (ones + 1)) * unit
+        if operator == "^" and b.constant == (-1 if of.signed else of.high):
+            return b - a
         if operator == "|":
             return self._or(a, b)
         raise NotImplementedError(f"{where.coord}: {operator}")
@@ -167,6 +171,13 @@ class Arithmetic:
                 return upper + lower
         if self.packs:
             raise ProofError(f"{self.functions[-1]}: fields that are put together by | overlap")
+        negative = [part for part in (a, b) if not self.path.decide(part, -part - 1)]
+        if negative:
+            # Bits that are set bring a negative number nearer to -1.
+            result = self.path.atom("or", max(self.path.bounds(part)[0] for part in negative), -1)
+            for part in negative:
+                self.path.assume(result - part)
+            return result
         high = max(self.path.bounds(a)[1], self.path.bounds(b)[1])
         result = self.path.atom("or", 0, (1 << high.bit_length()) - 1)
         self.path.assume(result - a)

@@ -330,6 +330,8 @@ class Machine(Arithmetic):
                 return self.boolean(left)
             return self.boolean(not self.is_zero(self.evaluate(node.right)))
         left, right = self.evaluate(node.left), self.evaluate(node.right)
+        if isinstance(left, Pointer) and isinstance(right, Number) and node.op in ("==", "!="):
+            return self.boolean(node.op == "!=")  # NULL is the only number that a pointer may be compared with
         if isinstance(left, Pointer) and isinstance(right, Number):
             offset = self.path.choose(right.poly)
             return Pointer(left.cells, left.index + (offset if node.op == "+" else -offset))

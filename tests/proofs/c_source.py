@@ -1,8 +1,8 @@
 """The firmware's C, as syntax trees: what the proofs execute is the source itself.
 
 A unit is one source file with all that it includes, as the C preprocessor leaves it for a given EL_SUBPIXEL_BITS and
-a core that it may be written differently for. A seeded fault is a unit in which one piece of text, which must occur
-exactly once, was replaced.
+a core, or a size, that it may be written differently for. A seeded fault is a unit in which one piece of text, which
+must occur exactly once, was replaced.
 """
 
 from __future__ import annotations
@@ -19,6 +19,9 @@ SOURCES = Path(__file__).resolve().parents[2] / "firmware" / "src"
 
 # The macro of cores without a 32 x 32 -> 64 bit product and without a divider: some arithmetic is written for them.
 ARMV6M = "__ARM_ARCH_6M__"
+
+# Where size counts, some of it is written in another way again.
+SMALL_CODE = "EL_SMALL_CODE=1"
 
 # The compiler's own headers use extensions that the parser does not know.
 HEADERS = {
@@ -45,18 +48,20 @@ HEADERS = {
 }
 
 
+# Division, with its tables, of which a core with a divider has none.
+DIVISION = ["base/divide.c", "base/reciprocals.c"]
+
 # What a unit calls in others, so that its functions can be linked.
 COMPANIONS: dict[str, list[str]] = {
-    "base/divide.c": [],
+    "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
-    "geometry/transform.c": ["geometry/pose.c", "base/divide.c", "base/fixed.c", "base/angle.c"],
-    "geometry/clip.c": ["base/divide.c", "base/fixed.c"],
-    "raster/plane.c": ["base/divide.c"],
-    "raster/triangle.c": ["raster/plane.c", "base/divide.c", "base/fixed.c"],
-    "raster/texture_walk.c": ["base/divide.c"],
-    "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/divide.c", "base/fixed.c"],
-    "raster/gather.c": ["raster/plane.c", "base/divide.c"],
-    "frame/draw.c": [],
+    "geometry/transform.c": ["geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/clip.c": ["base/fixed.c", *DIVISION],
+    "raster/plane.c": DIVISION,
+    "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
+    "raster/texture_walk.c": DIVISION,
+    "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/fixed.c", *DIVISION],
+    "raster/gather.c": ["geometry/transform.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
 }
 
 
@@ -85,7 +90,7 @@ def faulty_tree(folder: Path, fault: Fault) -> Path:
 
 
 def core_options(core: str) -> list[str]:
-    """What tells the preprocessor the core; "" for any."""
+    """What tells the preprocessor the core, or that size counts; "" for any."""
     return [f"-D{core}"] if core else []
 
 

@@ -1,14 +1,24 @@
-"""What callers may rely on about division and products, after the proofs that are named for them."""
+"""What callers may rely on about division, products, planes and knots, after the proofs that are named for them."""
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterable
 from typing import Any
 
-from c_execution import Machine
+from c_execution import Contract, Machine
 from c_values import Cell, Number, Pointer
 from symbolic import Poly, require
 
 WORD = 1 << 32
+
+# At a covered pixel a plane is off by less than so many units of 2^-32 (test_planes_are_exact_modulo_2_64).
+PLANE_ERROR = 8161
+
+# Texture coordinates are within TEXELS of 0; knots of theirs are off by less than KNOT_ERROR units of 2^-16 texel, and
+# within MOST_KNOT of 0 (test_texture_knots_keep_within_3_units).
+TEXELS, KNOT_ERROR = 2048, 3
+MOST_KNOT = (TEXELS << 16) + 2**27 + 1
 
 
 def divide_words(machine: Machine, arguments: list[Any]) -> Number:
@@ -90,12 +100,48 @@ def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
     return machine.exactly("uint32_t", path.new_quotient(Poly.of(WORD - 1), d, 0, WORD - 1))
 
 
-def plane_times(machine: Machine, arguments: list[Any]) -> Number:
-    """el_plane_times: gradient * count modulo 2^64. Pre: |count| < 2^22 (test_products_are_exact)."""
-    gradient, count = (argument.poly for argument in arguments)
-    require(machine.path.within(count, 1 - 2**22, 2**22 - 1), "el_plane_times: |count| < 2^22")
-    turns = machine.path.atom("turns", -(2**90), 2**90)
-    return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
+def reciprocal_near(machine: Machine, arguments: list[Any]) -> Number:
+    """el_reciprocal_near: r with 1 <= 2^63 - r d < EL_RECIPROCAL_ERROR d. Pre: d has its top bit.
+
+    So r > 2^63 / d - EL_RECIPROCAL_ERROR > 2^31 - EL_RECIPROCAL_ERROR.
+    """
+    d, path = arguments[0].poly, machine.path
+    path.prove(d - (1 << 31), "el_reciprocal_near: the divisor has its top bit")
+    error = machine.constant(machine.unit.constants["EL_RECIPROCAL_ERROR"])
+    reciprocal = path.atom("r", (1 << 31) - error, WORD - 1)
+    rest = (1 << 63) - reciprocal * d
+    path.assume(rest - 1)
+    path.assume(d * error - 1 - rest)
+    return machine.exactly("uint32_t", reciprocal)
+
+
+def dot(machine: Machine, arguments: list[Any]) -> Number:
+    """el_dot_i32_i16: the sum of the products. Pre: |a[0]| + |a[1]| + |a[2]| <= EL_DOT_MOST."""
+    a, b = ([machine.poly(cell) for cell in pointer.cells] for pointer in arguments)
+    most = machine.constant(machine.unit.constants["EL_DOT_MOST"])
+    for signs in itertools.product((1, -1), repeat=3):
+        machine.path.prove(most - weighted(signs, a), "el_dot_i32_i16: the magnitudes' sum")
+    return machine.exactly("int64_t", weighted(a, b))
+
+
+def weighted(a: Iterable[Poly | int], b: Iterable[Poly]) -> Poly:
+    """The sum of a[i] b[i]."""
+    return sum((y * x for x, y in zip(a, b, strict=True)), Poly.of(0))
+
+
+def _times(name: str, most: int) -> Contract:
+    """gradient * count modulo 2^64. Pre: |count| < most (test_products_are_exact)."""
+
+    def contract(machine: Machine, arguments: list[Any]) -> Number:
+        gradient, count = (argument.poly for argument in arguments)
+        require(machine.path.within(count, 1 - most, most - 1), f"{name}: |count| < {most}")
+        turns = machine.path.atom("turns", -(2**90), 2**90)
+        return machine.exactly("uint64_t", gradient * count - turns * WORD * WORD)
+
+    return contract
+
+
+plane_times, multiply_u64 = _times("el_plane_times", 1 << 22), _times("el_multiply_u64", 1 << 16)
 
 
 DIVISION = {

@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 
 from c_execution import Contract, Lemma, Machine
-from c_source import ARMV6M, COMPANIONS, SOURCES, Fault, core_options, parse
+from c_source import ARMV6M, COMPANIONS, SMALL_CODE, SOURCES, Fault, core_options, parse
 from c_values import ArrayType, Cell, IntType, Number, Pointer, PointerType, StructType
 from symbolic import Fact, Infeasible, Path, Poly, ProofError, every_path, require
 
@@ -59,8 +59,8 @@ class Subject:
 
         return every_path(body)
 
-    def fails_with(self, fault: Fault, bits: int = 4) -> None:
-        """The proof of the faulty source must fail."""
+    def fails_with(self, fault: Fault | None, bits: int = 4) -> None:
+        """The proof of the faulty source must fail; or of a domain that is too large."""
         with pytest.raises(ProofError):
             self.prove(bits, fault)
 
@@ -244,6 +244,7 @@ def _flat(value: Any) -> list[int | None]:
 __all__ = [
     "ARMV6M",
     "EVERY_PRECISION",
+    "SMALL_CODE",
     "Fact",
     "Fault",
     "Machine",

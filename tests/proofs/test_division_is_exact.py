@@ -1,7 +1,8 @@
 """base/divide: the reciprocal, the quotient of two words by one, and all that is built on them.
 
 The reciprocal of d is v = floor((2^64 - 1) / d) - 2^32. With B = 2^32 that says: k = B^2 - (B + v) d is in 1..d. It is
-checked for each of the 2^31 normalised divisors.
+checked for each of the 2^31 normalised divisors; so is el_reciprocal_near: 1 <= 2^63 - r d < EL_RECIPROCAL_ERROR d. On
+cores without a divider both begin with a table, whose every entry is checked against the division.
 
 el_divide_words takes p = (B + v) high + low, tries q = p div B + 1, and corrects. With q0 = p mod B and
 r = high B + low - q d, the definition of k gives B r = high k + low (B - d) + (q0 - B) d, from which
@@ -21,11 +22,11 @@ from typing import Any
 import pytest
 
 import contracts
-from c_source import SOURCES, faulty_tree
+from c_source import ARMV6M, SOURCES, core_options, faulty_tree
 from proof import Fact, Fault, Machine, Number, Pointer, Poly, Subject, compile_c
 
 B = 1 << 32
-FILE = "base/divide.c"
+FILE, HEADER = "base/divide.c", "base/divide.h"
 
 EVERY_DIVISOR = """
 #include "base/divide.c"
@@ -36,9 +37,9 @@ int main(void)
     for (uint32_t d = 1U << 31; d != 0; d++) {
         /* 2^64 - 1 - (2^32 + v) d must be a remainder. It is below d modulo 2^64 only if it is so without the modulus,
          * since (2^32 + v + 1) d <= 2^33 (2^32 - 1) < 2^65 - 1. */
-        const uint64_t rest = ~((uint64_t)reciprocal_word(d) * d + ((uint64_t)d << 32));
+        const uint64_t rest = ~((uint64_t)el_reciprocal_word(d) * d + ((uint64_t)d << 32));
         if (rest >= d) {
-            printf("the reciprocal of %u is %u\\n", d, reciprocal_word(d));
+            printf("the reciprocal of %u is %u\\n", d, el_reciprocal_word(d));
             return 1;
         }
     }
@@ -46,22 +47,89 @@ int main(void)
 }
 """
 
+EVERY_NEAR = """
+#include "base/divide.c"
+#include <stdio.h>
 
-def every_divisor(folder: FilePath, tree: FilePath) -> str:
+int main(void)
+{
+    for (uint32_t d = 1U << 31; d != 0; d++) {
+        /* Too high a one would wrap to 2^63 at least. */
+        const uint64_t rest = (1ULL << 63) - (uint64_t)el_reciprocal_near(d) * d;
+        if (rest == 0 || rest >= (uint64_t)EL_RECIPROCAL_ERROR * d) {
+            printf("the reciprocal of %u is near %u\\n", d, el_reciprocal_near(d));
+            return 1;
+        }
+    }
+    return 0;
+}
+"""
+
+EVERY_ENTRY = """
+#include "base/divide.c"
+#include "base/reciprocals.c"
+#include <stdio.h>
+
+static int differ(uint32_t d, uint32_t by_table, uint32_t divided)
+{
+    return by_table != divided && printf("the reciprocal of %u by table is %u\\n", d, by_table);
+}
+
+int main(void)
+{
+    int wrong = 0;
+    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
+        wrong |= differ(d, el_reciprocal_of_short(d), 0xFFFFFFFFU / d);
+    }
+    for (uint32_t d = 512; d < 1024; d++) {
+        wrong |= differ(d, el_first_guess(d), ((1U << 24) - (1U << 14) + (1U << 9)) / d);
+    }
+    for (uint32_t d = (1U << 15) + 1U; d <= 1U << 16; d++) {
+        wrong |= differ(d, el_reciprocal_u16(d), 0x80000000U / d);
+    }
+    return wrong;
+}
+"""
+
+
+def first_wrong(folder: FilePath, text: str, tree: FilePath = SOURCES, core: str = "") -> str:
     """The first divisor whose reciprocal is wrong, or nothing."""
     program = folder / "every_divisor"
-    compile_c(EVERY_DIVISOR, program, "-O3", tree=tree)
+    compile_c(text, program, "-O3", *core_options(core), tree=tree)
     return subprocess.run([str(program)], capture_output=True, text=True, check=False, timeout=300).stdout
 
 
-def test_the_reciprocal_of_every_normalised_divisor(tmp_path: FilePath) -> None:
-    assert every_divisor(tmp_path, SOURCES) == ""
+EVERY = pytest.mark.parametrize(
+    ("text", "core"),
+    [(EVERY_DIVISOR, ""), (EVERY_NEAR, ""), (EVERY_ENTRY, ARMV6M)],
+    ids=["exact", "near", "tables"],
+)
 
 
-@pytest.mark.parametrize(("old", "new"), [("(d >> 11) + 1U", "(d >> 11)"), ("(v1, e) >> 33", "(v1, e) >> 34")])
-def test_the_check_of_every_divisor_can_fail(tmp_path: FilePath, old: str, new: str) -> None:
-    tree = faulty_tree(tmp_path / "tree", Fault(FILE, old, new))
-    assert every_divisor(tmp_path, tree).startswith("the reciprocal of")
+@EVERY
+def test_the_reciprocal_of_every_normalised_divisor(tmp_path: FilePath, text: str, core: str) -> None:
+    assert first_wrong(tmp_path, text, core=core) == ""
+
+
+TABLE = "base/reciprocals.c"
+
+
+@pytest.mark.parametrize(
+    ("text", "core", "fault"),
+    [
+        (EVERY_DIVISOR, "", Fault(HEADER, "(d >> 11) + 1U", "(d >> 11)")),
+        (EVERY_DIVISOR, "", Fault(HEADER, "(v1, e) >> 33", "(v1, e) >> 34")),
+        (EVERY_NEAR, "", Fault(HEADER, "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 17")),
+        (EVERY_NEAR, "", Fault(HEADER, "0x7FFFFFFFU - product", "0x80000010U - product")),
+        (EVERY_ENTRY, ARMV6M, Fault(HEADER, "* (left >> 5)) >> 24", "* (left >> 5)) >> 25")),
+        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x7FE1, 0x7FA1", "0x7FE1, 0x7FA2")),
+        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x00804020", "0x00804021")),
+    ],
+    ids=lambda value: value.new if isinstance(value, Fault) else "",
+)
+def test_the_check_of_every_divisor_can_fail(tmp_path: FilePath, text: str, core: str, fault: Fault) -> None:
+    tree = faulty_tree(tmp_path / "tree", fault)
+    assert first_wrong(tmp_path, text, tree, core).startswith("the reciprocal of")
 
 
 # --- two words by one -------------------------------------------------------------------------------------------------
@@ -323,7 +391,7 @@ MAKE = Subject(
     lambda machine, arguments, result: machine.path.prove(
         machine.poly(result, "normalised") - B // 2, "normalised has its top bit"
     ),
-    contracts={"reciprocal_word": lambda machine, _: machine.number("uint32_t", "reciprocal")},
+    contracts={"el_reciprocal_word": lambda machine, _: machine.number("uint32_t", "reciprocal")},
 )
 I32_Q32 = Subject(
     FILE,
@@ -362,7 +430,7 @@ def test_quotients_are_exact_for_every_input(name: str) -> None:
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
     if name == "el_divisor_make":
-        subject = Subject(FILE, name, subject.domain, modular=["reciprocal_word"])
+        subject = Subject(FILE, name, subject.domain, modular=["el_reciprocal_word"])
     Subject(FILE, name, subject.domain, modular=[*subject.modular, "el_divide_words"]).agree()
 
 
@@ -378,7 +446,7 @@ def test_the_compiler_agrees(name: str) -> None:
     ],
 )
 def test_the_proof_can_fail(name: str, old: str, new: str) -> None:
-    SUBJECTS[name].fails_with(Fault("base/divide.h", old, new))
+    SUBJECTS[name].fails_with(Fault(HEADER, old, new))
 
 
 def test_the_proof_can_fail_on_the_wide_division() -> None:

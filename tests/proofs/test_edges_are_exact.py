@@ -132,11 +132,12 @@ def _step_errors(machine: Machine, dx: Poly, dy: Poly, step: Poly) -> list[Poly]
 
 
 def times(machine: Machine, arguments: list[Any]) -> Number:
-    """el_multiply_u64 of a step and rows: the product is below 2^49 and of the step's sign."""
+    """el_multiply_u16 of a step and rows: the product is below 2^49 and of the step's sign."""
     path = machine.path
     ends = ENDS[id(path)]
     step, down = machine.poly(machine.scopes[0]["edge"].content.cell, "step_q32"), arguments[1].poly
     congruent(arguments[0].poly, step, RING, "the step")
+    path.prove(2**16 - 1 - down, "el_multiply_u16: below 2^16")
     right = path.holds(ends.dx)
     path.assume_product(step if right else -step, ends.dy - 1 - down)
     path.assume_product(step if right else -step, down)
@@ -301,10 +302,10 @@ MAKE = Subject(
     "el_edge_make",
     make_domain,
     make_check,
-    modular=["el_multiply_u64"],
+    modular=["el_multiply_u16"],
     contracts={
         "el_edge_step_q32": step_of,
-        "el_multiply_u64": times,
+        "el_multiply_u16": times,
         "el_wide_ratio_q32": contracts.ratio_q32,
     },
 )
@@ -313,7 +314,6 @@ STEP = Subject(
     "el_edge_step_q32",
     step_domain,
     step_check,
-    modular=["el_multiply_u64"],
     contracts={"el_ratio_q32": contracts.ratio_q32, "el_reciprocal_of_short": contracts.reciprocal_of_short},
 )
 NEXT = Subject(FILE, "el_edge_next_row", next_domain, next_check)
@@ -385,7 +385,7 @@ def test_the_proof_can_fail_with_more_bits(old: str, new: str, bits: int) -> Non
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ("(uint64_t)reciprocal + 1U", "(uint64_t)reciprocal"),
+        ("-(int64_t)(product + aside)", "-(int64_t)product"),
         ("EL_EDGE_SHORT = 511", "EL_EDGE_SHORT = 512"),
     ],
     ids=["to the left", "too long"],

@@ -1,23 +1,28 @@
-"""geometry/transform: what el_transform_vertex computes from 31 bits of the reciprocal is what el_project has.
+"""geometry/transform: what project_inside computes from a reciprocal that is only near is what el_project has.
 
-Let N = w 2^s be the normalised divisor, 2^31 <= N < 2^32, v its reciprocal, and R = v >> 1 | 2^31. From
-1 <= 2^64 - (v + 2^32) N <= N follows 1 <= 2^63 - R N <= N: call that k.
+Let N = w 2^s be the normalised divisor, 2^31 <= N < 2^32, and r = el_reciprocal_near(N). With k = 2^63 - r N, proven
+for every N, 1 <= k < E N, E = EL_RECIPROCAL_ERROR = 18.
 
-Snapping. With m = |c| <= w and P = 2^(31 - s), m R = 2^32 ratio + f gives
+Snapping. With m = w + c in [0, 2 w], middle + half c / w is half m / w, to the nearest. M = m 2^(s - 1) is at most N,
+and half m / w = 2 half M / N. M r = 2^32 ratio + f gives
 
-    2^(32 + s) (m P - w ratio) = 2^s w f + m k,    so 0 <= m P - w ratio < 3/2 w.
+    2^32 (2^31 M - N ratio) = f N + M k,    so 0 <= 2^31 M - N ratio < (E + 1) N.
 
-Times half that is the sum before rounding, which the C has too low by 0 to 2 half units. Where its fraction F of P
-units is neither 0 nor that near to the next whole number, 2 m half + w lies strictly between 2 w o and 2 w (o + 1), o
-being its whole part: the nearest, and no tie, so that the sign may be put on afterwards.
+Times half that is the sum before rounding, which the C has too low by less than 20 half units of 2^-30. Where its
+fraction is not that near to the next whole number, the whole part o is the nearest: 0 <= 4 half M + N - 2 N o < 2 N,
+which is the same with m and w for M and N.
 
 Depth. near = n 2^near_shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N
-count. n R = 2^32 ratio + f gives
+count. n r = 2^32 ratio + f gives
 
-    2^32 (2^31 n - ratio N) = f N + n k,    so 0 <= 2^31 n - ratio N < 2 N,
+    2^32 (2^31 n - ratio N) = f N + n k,    so 0 <= 2^31 n - ratio N < (E + 1) N,
 
-and depth_of has r = floor(2^32 near / w), 2^32 - 1 where near = w: 2^e r < 2 ratio + 4 and 2 ratio < 2^e (r + 1). Times
-the scale, both depths are within the units that are kept free on both sides of the fraction.
+and depth_of has q = floor(2^32 near / w), 2^32 - 1 where near = w: 2^e q < 2 ratio + 2 (E + 1) and
+2 ratio < 2^e (q + 1). Times the scale, both depths are within the units that are kept free on both sides of the
+fraction.
+
+1 / w. el_divisor_make has V = floor((2^64 - 1) / N), and 2 r <= V < 2 r + 2 E: what is rounded to 16 bits is the same
+where r is not as near as that to the next one.
 """
 
 from __future__ import annotations
@@ -27,30 +32,30 @@ from typing import Any
 import pytest
 
 import contracts
+from c_values import ArrayType, Cell
 from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, quotient_of
-from symbolic import Infeasible, require
+from symbolic import require
 
 TRANSFORM = "geometry/transform.c"
 WORD = 1 << 32
 I32 = (-(2**31), 2**31 - 1)
 
 
-def normalised_reciprocal(machine: Machine, n: Poly) -> tuple[Poly, Poly]:
-    """R, and k = 2^63 - R N in 1..N: what prove_half proves of project_inside."""
-    path = machine.path
-    r = path.atom("R", 2**31, WORD - 1)
-    k = 2**63 - r * n
-    path.assume(k - 1)
-    path.assume(n - k)
-    return r, k
+def near_reciprocal(machine: Machine, n: Poly) -> tuple[Poly, Poly]:
+    """r, and k = 2^63 - r N; of a sample as the C has them."""
+    number = machine.exactly("uint32_t", n)
+    if n.constant is None:
+        r = contracts.reciprocal_near(machine, [number]).poly
+    else:
+        r = machine.call("el_reciprocal_near", number).poly
+    return r, 2**63 - r * n
 
 
-def half_reciprocal(divisor: Any) -> int:
-    """Of a sample."""
-    return int(divisor.content["reciprocal"].content.poly.known) >> 1 | 1 << 31
+def error_of(machine: Machine) -> int:
+    return machine.constant(machine.unit.constants["EL_RECIPROCAL_ERROR"])
 
 
-# --- R ----------------------------------------------------------------------------------------------------------------
+# --- which is asked for what ------------------------------------------------------------------------------------------
 
 
 def inside_domain(machine: Machine) -> list[Any]:
@@ -72,186 +77,178 @@ def inside_domain(machine: Machine) -> list[Any]:
     return [Pointer([transform]), Pointer([vertex]), Pointer([machine.struct("el_screen_vertex")])]
 
 
-class Exact:
-    """The results of snap and depth_of on one path; the fast ways return the same, or nothing."""
+class Asked:
+    """The results of el_project and its parts on one path; the fast ways return the same, or nothing."""
 
-    def __init__(self) -> None:
-        self.snapped: dict[str, Poly] = {}
+    def __init__(self, machine: Machine, arguments: list[Any]) -> None:
+        transform, vertex = arguments[0].cell, arguments[1].cell
+        self.w = machine.poly(vertex, "w")
+        sizes = [machine.poly(transform, "size", i) for i in range(2)]
+        x, y = machine.poly(vertex, "x"), machine.poly(vertex, "y")
+        self.sides = {"x": (self.w + x, sizes[0]), "y": (self.w - y, sizes[1])}
+        self.exact = {axis: machine.path.atom(axis, 0, 32640) for axis in "xy"}
+        self.exact["z"] = machine.path.atom("z", 0, 65534)
+        self.exact["w"] = machine.path.atom("w", 2**15, 2**16 - 1)
+        self.exact["w_shift"] = machine.path.atom("w_shift", 0, 31)
+        self.reciprocal: tuple[Poly, Poly] | None = None
 
-    def divisor_make(self, machine: Machine, arguments: list[Any]) -> Any:
-        """el_divisor_make, with what its members are."""
-        path, w = machine.path, arguments[0].poly
-        path.prove(w - 1, "w >= 1")
-        shift, v = path.choose(path.atom("shift", 1, 31)), path.atom("v", 0, WORD - 1)
-        n = w * (1 << shift)
-        path.assume(n - 2**31)
-        path.assume(WORD - 1 - n)
-        k = 2**64 - (v + WORD) * n
-        path.assume(k - 1)
-        path.assume(n - k)
-        cell = machine.struct("el_divisor", normalised=n, reciprocal=v, shift=shift)
-        cell.stands_for = w
-        return cell
+    def near(self, machine: Machine, arguments: list[Any]) -> Number:
+        number = contracts.reciprocal_near(machine, arguments)
+        self.reciprocal = arguments[0].poly, number.poly
+        return number
 
-    def _result(self, machine: Machine, c: Poly, size: Poly) -> Poly:
-        key = f"{c} {size}"
-        if key not in self.snapped:
-            self.snapped[key] = machine.path.atom("snapped", 0, 32640)
-        return self.snapped[key]
+    def _prove_reciprocal(self, machine: Machine, r: Poly) -> Poly:
+        """r is that of N = w 2^s; the result is 2^s."""
+        assert self.reciprocal is not None
+        n, near = self.reciprocal
+        machine.path.prove(near - r, "the reciprocal", zero=True)
+        shifts = [s for s in range(32) if (n - self.w * (1 << s)).constant == 0]
+        require(len(shifts) == 1, "of w, moved up")
+        return Poly.of(1 << shifts[0])
 
-    def snap(self, machine: Machine, arguments: list[Any]) -> Number:
-        return machine.exactly("el_coordinate", self._result(machine, arguments[0].poly, arguments[1].poly))
+    def _either(self, machine: Machine) -> int:
+        return machine.path.choose(machine.path.atom("fast", 0, 1))
 
     def snap_fast(self, machine: Machine, arguments: list[Any]) -> Number:
-        c, size, divisor, reciprocal, result = arguments
-        path, w = machine.path, contracts.divisor_of(divisor)
-        path.prove(w - c.poly, "c <= w")
-        path.prove(w + c.poly, "c >= -w")
-        shift = machine.poly(divisor.cell, "shift")
-        path.prove(machine.constant(machine.unit.constants["FAST_SHIFT"]) - shift, "a shift up to FAST_SHIFT")
-        prove_half(machine, divisor, reciprocal.poly)
-        if path.choose(path.atom("fast", 0, 1)) == 0:
-            return machine.exactly("_Bool", 0)
-        machine.put(result.cell, self._result(machine, c.poly, size.poly))
-        return machine.exactly("_Bool", 1)
+        from_the_side, size, reciprocal, result = arguments
+        unit = self._prove_reciprocal(machine, reciprocal.poly)
+        asked = [axis for axis, (_, of) in self.sides.items() if of.terms == size.poly.terms]
+        require(len(asked) == 1, "the size of one axis")
+        axis = asked[0]
+        machine.path.prove(from_the_side.poly * 2 - self.sides[axis][0] * unit, "M = (w + c) 2^(s - 1)", zero=True)
+        fast = self._either(machine)
+        machine.put(result.cell, self.exact[axis] if fast else machine.path.atom("off", *COORDINATE))
+        return machine.exactly("_Bool", fast)
 
-    def depth_of(self, machine: Machine, arguments: list[Any]) -> Number:
-        return machine.exactly("uint16_t", self.snapped.setdefault("depth", machine.path.atom("depth", 0, 65534)))
+    def keep_reciprocal_fast(self, machine: Machine, arguments: list[Any]) -> Number:
+        screen, w_shift, reciprocal = arguments
+        unit = self._prove_reciprocal(machine, reciprocal.poly)
+        require(unit.known == 1 << w_shift.poly.known, "the shift of w")
+        fast = self._either(machine)
+        for name, low, high in (("w", 0, 2**16 - 1), ("w_shift", 0, 31)):
+            machine.put(screen.cell.content[name], self.exact[name] if fast else machine.path.atom("off", low, high))
+        return machine.exactly("_Bool", fast)
 
     def depth_fast(self, machine: Machine, arguments: list[Any]) -> Number:
-        transform, divisor, reciprocal, result = arguments
+        transform, w_shift, reciprocal, result = arguments
         require(machine.poly(transform.cell, "orthographic").known == 0, "in perspective only")
-        prove_half(machine, divisor, reciprocal.poly)
-        if machine.path.choose(machine.path.atom("fast", 0, 1)) == 0:
-            return machine.exactly("_Bool", 0)
-        machine.put(result.cell, self.depth_of(machine, []))
-        return machine.exactly("_Bool", 1)
+        unit = self._prove_reciprocal(machine, reciprocal.poly)
+        require(unit.known == 1 << w_shift.poly.known, "the shift of w")
+        fast = self._either(machine)
+        if fast:
+            machine.put(result.cell, self.exact["z"])
+        return machine.exactly("_Bool", fast)
+
+    def depth_of(self, machine: Machine, arguments: list[Any]) -> Number:
+        require((arguments[2].poly - self.w).constant == 0, "w")
+        require((contracts.divisor_of(arguments[3]) - self.w).constant == 0, "the divisor of w")
+        return machine.exactly("uint16_t", self.exact["z"])
+
+    def project(self, machine: Machine, arguments: list[Any]) -> None:
+        for name, value in self.exact.items():
+            machine.put(arguments[2].cell.content[name], value)
 
 
-def prove_half(machine: Machine, divisor: Pointer, r: Poly) -> None:
-    """1 <= 2^63 - R N <= N and 2^31 <= R."""
-    path = machine.path
-    n, v = (machine.poly(divisor.cell, name) for name in ("normalised", "reciprocal"))
-    w = contracts.divisor_of(divisor)
-    bit = v + WORD - r * 2
-    path.prove(bit, "R is half of v + 2^32, cut off")
-    path.prove(1 - bit, "R is half of v + 2^32, cut off")
-    path.assume_product(bit, w)
-    path.assume_product(1 - bit, w)
-    path.prove(2**63 - r * n - 1, "2^63 - R N >= 1")
-    path.prove(n - 2**63 + r * n, "2^63 - R N <= N")
-    path.prove(r - 2**31, "R has its top bit")
+COORDINATE = (-(2**15), 2**15 - 1)
 
 
 def project_inside() -> Subject:
     """Each member is from its fast way or from its exact one, asked for the same."""
-    exacts: dict[int, Exact] = {}
+    every: dict[int, Asked] = {}
 
     def domain(machine: Machine) -> list[Any]:
-        exact = exacts[id(machine.path)] = Exact()
+        arguments = inside_domain(machine)
+        asked = every[id(machine.path)] = Asked(machine, arguments)
         machine.contracts = {
-            "el_divisor_make": exact.divisor_make,
-            "snap": exact.snap,
-            "snap_fast": exact.snap_fast,
-            "depth_of": exact.depth_of,
-            "depth_fast": exact.depth_fast,
+            "el_divisor_make": contracts.divisor_make,
+            "el_reciprocal_near": asked.near,
+            "snap_fast": asked.snap_fast,
+            "keep_reciprocal_fast": asked.keep_reciprocal_fast,
+            "depth_fast": asked.depth_fast,
+            "depth_of": asked.depth_of,
+            "el_project": asked.project,
         }
-        return inside_domain(machine)
+        return arguments
 
     def check(machine: Machine, arguments: list[Any], _: Any) -> None:
-        exact = exacts.pop(id(machine.path))
-        fast = arguments[2].cell
-        transform, vertex = arguments[0].cell, arguments[1].cell
-        sizes = [machine.poly(transform, "size", i) for i in range(2)]
-        x, y = machine.poly(vertex, "x"), -machine.poly(vertex, "y")
-        for name, key in (("x", f"{x} {sizes[0]}"), ("y", f"{y} {sizes[1]}"), ("z", "depth")):
-            require(key in exact.snapped, f"{name} is of its coordinate and its size")
-            machine.path.prove(machine.poly(fast, name) - exact.snapped[key], f"{name} is el_project's", zero=True)
+        for name, value in every.pop(id(machine.path)).exact.items():
+            machine.path.prove(machine.poly(arguments[2].cell, name) - value, f"{name} is el_project's", zero=True)
 
-    return Subject(TRANSFORM, "project_inside", domain, check)
+    return Subject(TRANSFORM, "project_inside", domain, check, ["project_inside"])
 
 
 # --- snapping ---------------------------------------------------------------------------------------------------------
 
 
 def snap_domain(machine: Machine) -> list[Any]:
+    """M, and N by its reciprocal: of the two shifts that they were moved by, nothing is left."""
     path = machine.path
-    most = machine.constant(machine.unit.constants["FAST_SHIFT"])
-    size = path.atom("size", 1, 2040)
-    result = machine.array("el_coordinate", [0])
-    sample = size.constant is not None
-    if sample:
-        w = path.atom("w", 2 ** (31 - most), 2**31 - 1)
-        divisor = machine.call("el_divisor_make", machine.exactly("uint32_t", w))
-        r = Poly.of(half_reciprocal(divisor))
-        m = path.atom("m", 0, w.known)
-    else:
-        s = path.choose(path.atom("shift", 1, most))
-        w = path.atom("w", 2 ** (31 - s), 2 ** (32 - s) - 1)
-        r, k = normalised_reciprocal(machine, w * (1 << s))
-        m = path.atom("m", 0, 2**31 - 1)
-        path.assume(w - m)
-        divisor = machine.struct("el_divisor", shift=s)
-        # m k <= w N, and w < 2^31.
+    size, n = path.atom("size", 1, 2040), path.atom("N", 2**31, WORD - 1)
+    m = path.atom("M", 0, WORD - 1)
+    path.assume(n - m)
+    r, k = near_reciprocal(machine, n)
+    if n.constant is None:
+        # M k < E N N, and N < 2^32.
         path.assume_product(m, k - 1)
-        path.assume_product(w - m, k - 1)
-        path.assume_product(w, w * (1 << s) - k)
-        path.assume_product(2**31 - 1 - w, w)
-        SNAPS[id(path)] = (m, w, size * (machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // 4080), s, r)
-    negative = path.choose(path.atom("negative", 0, 1))
-    numbers = machine.exactly("int32_t", -m if negative else m), machine.exactly("uint16_t", size)
-    return [*numbers, Pointer([divisor]), machine.exactly("uint32_t", r), result]
+        path.assume_product(n - m, k - 1)
+        path.assume_product(n, n * error_of(machine) - 1 - k)
+        path.assume_product(WORD - 1 - n, n)
+        SNAPS[id(path)] = (m, n, half_of(machine, size), r)
+    numbers = machine.exactly("uint32_t", m), machine.exactly("uint16_t", size), machine.exactly("uint32_t", r)
+    return [*numbers, machine.array("el_coordinate", [0])]
 
 
-SNAPS: dict[int, tuple[Poly, Poly, Poly, int, Poly]] = {}
+def half_of(machine: Machine, size: Poly) -> Poly:
+    return size * (machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // 4080)
+
+
+SNAPS: dict[int, tuple[Poly, Poly, Poly, Poly]] = {}
+
+
+def too_low(machine: Machine, m: Poly, n: Poly, r: Poly, ratio: Poly) -> Poly:
+    """2^31 M - N ratio, and that it is in [0, (E + 1) N)."""
+    path = machine.path
+    f, k = m * r - ratio * WORD, 2**63 - r * n
+    path.prove(f, "f >= 0")
+    path.prove(WORD - 1 - f, "f < 2^32")
+    path.assume_product(f, n)
+    path.assume_product(WORD - 1 - f, n)
+    low = m * 2**31 - n * ratio
+    require((low * WORD - f * n - m * k).constant == 0, "2^32 (2^31 M - N ratio) = f N + M k")
+    path.prove(low, "not too high")
+    path.prove(n * (error_of(machine) + 1) - 1 - low, "too low by less than E + 1")
+    return low
 
 
 def ratio_lemma(machine: Machine, ratio: Number) -> Number:
-    """0 <= m P - w ratio < 2 w, times half."""
-    m, w, half, s, r = SNAPS[id(machine.path)]
-    path = machine.path
-    f = m * r - ratio.poly * WORD
-    path.prove(f, "f >= 0")
-    path.prove(WORD - 1 - f, "f < 2^32")
-    path.assume_product(f, w)
-    path.assume_product(WORD - 1 - f, w)
-    low = m * 2 ** (31 - s) - w * ratio.poly
-    k = 2**63 - r * w * (1 << s)
-    require((low * (WORD << s) - f * w * (1 << s) - m * k).constant == 0, "2^(32 + s) (m P - w ratio) = 2^s w f + m k")
-    path.assume_product(low, half)
-    path.assume_product(w * 2 - 1 - low, half)
+    """How much too low, times half; and M <= N, so the ratio is at most 1."""
+    m, n, half, r = SNAPS[id(machine.path)]
+    low = too_low(machine, m, n, r, ratio.poly)
+    machine.path.assume_product(low, half)
+    machine.path.assume_product(n * (error_of(machine) + 1) - 1 - low, half)
+    quotient_of(machine.path, 2**31 - ratio.poly, n, "M <= N")
     return ratio
 
 
-def offset_lemma(machine: Machine, offset: Number) -> Number:
-    """2 w o < 2 m half + w < 2 w (o + 1), and with that o <= half."""
-    path = machine.path
-    m, w, half, s, _ = SNAPS[id(path)]
-    o, p = offset.poly, 2 ** (31 - s)
-    scaled = machine.locals["snap_fast.scaled"].poly
-    f = scaled - o * p
-    path.assume_product(f - 1, w)
-    path.assume_product(p - half * 2 - 1 - f, w)
-    path.prove(m * half * 2 + w - w * o * 2 - 1, "2 w o < 2 m half + w")
-    path.prove(w * (o + 1) * 2 - m * half * 2 - w - 1, "2 m half + w < 2 w (o + 1)")
-    path.assume_product(w - m, half)
-    if not path.decide(half - o, o - half - 1):
-        path.assume_product(o - half - 1, w)
-        path.prove(Poly.of(-1), "o <= half")
-        raise Infeasible
-    return offset
+def scaled_lemma(machine: Machine, scaled: Number) -> Number:
+    """The ratio is at most 1, times half: the result fits its type before it is known to be right."""
+    machine.path.assume_product(2**31 - machine.locals["snap_fast.ratio"].poly, SNAPS[id(machine.path)][2])
+    return scaled
 
 
 def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """As test_vertices_keep_their_bounds has it for snap: the nearest, ties up."""
-    _, w, half, _, _ = SNAPS.pop(id(machine.path))
+    """The nearest, ties up."""
+    m, n, half, _ = SNAPS.pop(id(machine.path))
     path = machine.path
     if result.poly.constant == 0:
         return
-    c = arguments[0].poly
-    error = c * half + path.floor(w, 2) - (machine.poly(arguments[4].cell) - half) * w
-    path.prove(error, "not above the nearest")
-    path.prove(w - 1 - error, "not below the nearest")
+    o = machine.poly(arguments[3].cell)
+    fraction = machine.locals["snap_fast.scaled"].poly - o * 2**30
+    # Less than what is kept free, of N.
+    path.assume_product(fraction, n)
+    path.assume_product(2**30 - half * 20 - fraction, n)
+    path.prove(m * half * 4 + n - n * o * 2, "not above the nearest")
+    path.prove(n * 2 - 1 - m * half * 4 - n + n * o * 2, "not below the nearest")
 
 
 SNAP = Subject(
@@ -260,8 +257,27 @@ SNAP = Subject(
     snap_domain,
     snap_check,
     ["snap_fast"],
-    lemmas={"snap_fast.ratio": ratio_lemma, "snap_fast.offset": offset_lemma},
+    lemmas={"snap_fast.ratio": ratio_lemma, "snap_fast.scaled": scaled_lemma},
 )
+
+
+def nearest_is_snapped(tie: int) -> Subject:
+    """What is the nearest of half m / w is what snap has (test_vertices_keep_their_bounds), with c = m - w."""
+
+    def domain(machine: Machine) -> list[Any]:
+        path = machine.path
+        w, half, o = path.atom("w", 1, 2**31 - 1), path.atom("half", 1, 2**18), path.atom("o", 0, 2**19)
+        c = path.atom("c", *I32)
+        error = (c + w) * half * 2 + w - w * o * 2
+        path.assume(error)
+        path.assume(w * 2 - tie - error)
+        snapped = c * half + path.floor(w, 2) - (o - half) * w
+        path.prove(snapped, "not above snap's")
+        path.prove(w - 1 - snapped, "not below snap's")
+        return [machine.exactly("uint16_t", 1)]
+
+    return Subject(TRANSFORM, "guard_shift", domain)
+
 
 # --- depth ------------------------------------------------------------------------------------------------------------
 
@@ -272,39 +288,31 @@ def depth_domain(machine: Machine) -> list[Any]:
     near = path.atom("near_bits", 2**31, WORD - 1)
     scale = path.atom("depth_scale", 65534 << 12, 65534 * 9 << 12)
     excess = path.choose(path.atom("excess", 0, 32))
-    sample = near.constant is not None
     shift = path.atom("shift", 1, 31)
     transform = machine.struct("el_transform", near_bits=near, near_shift=32 - shift - excess, depth_scale=scale)
     n = path.atom("N", 2**31, WORD - 1)
     path.assume(n * (1 << excess) - near)
-    if sample:
-        r = Poly.of(half_reciprocal(machine.call("el_divisor_make", machine.exactly("uint32_t", n))))
-    else:
-        r, k = normalised_reciprocal(machine, n)
+    r, k = near_reciprocal(machine, n)
+    if n.constant is None:
         path.assume_product(near, k - 1)
-        path.assume_product(near, n - k)
+        path.assume_product(near, n * error_of(machine) - 1 - k)
         path.assume_product(WORD - 1 - near, n)
         DEPTHS[id(path)] = (near, scale, excess, n, r)
-    divisor = machine.struct("el_divisor", shift=shift)
-    numbers = Pointer([divisor]), machine.exactly("uint32_t", r), machine.array("uint16_t", [0])
+    numbers = machine.exactly("unsigned", shift), machine.exactly("uint32_t", r), machine.array("uint16_t", [0])
     return [Pointer([transform]), *numbers]
 
 
 DEPTHS: dict[int, tuple[Poly, Poly, int, Poly, Poly]] = {}
 
 
-def near_lemma(machine: Machine, value: Number) -> Number:
-    """ratio N <= 2^31 n < (ratio + 2) N; and near <= w, so scale near / w is not above the scale."""
-    path, ratio = machine.path, value.poly
+def near_lemma(machine: Machine, ratio: Number) -> Number:
+    """How much too low; and near <= w, so scale near / w is not above the scale."""
+    path = machine.path
     near, scale, excess, n, r = DEPTHS[id(path)]
-    f = near * r - ratio * WORD
-    path.assume_product(f, n)
-    path.assume_product(WORD - 1 - f, n)
-    path.prove(near * 2**31 - ratio * n, "ratio N <= 2^31 n")
-    path.prove(n * 2 - 1 - near * 2**31 + ratio * n, "2^31 n < (ratio + 2) N")
-    quotient_of(path, 2**31 * (1 << excess) - ratio, n, "near <= w")
-    path.assume_product(2**31 * (1 << excess) - ratio, scale)
-    return value
+    too_low(machine, near, n, r, ratio.poly)
+    quotient_of(path, 2**31 * (1 << excess) - ratio.poly, n, "near <= w")
+    path.assume_product(2**31 * (1 << excess) - ratio.poly, scale)
+    return ratio
 
 
 def depth_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -315,21 +323,59 @@ def depth_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     ratio = machine.locals["depth_fast.ratio"].poly
 
     # depth_of's quotient, near / w in Q32.
-    r = Poly.of(WORD - 1)
+    q = Poly.of(WORD - 1)
     if path.decide(n * (1 << excess) - near - 1, near - n * (1 << excess)):
-        r = path.new_quotient(near * WORD, n * (1 << excess), 0, WORD - 1)
-    quotient_of(path, ratio * 2 + 4 - r * (1 << excess), n, "2^e r <= 2 ratio + 4")
-    quotient_of(path, (r + 1) * (1 << excess) - ratio * 2, n, "2 ratio <= 2^e (r + 1)")
-    path.assume_product(ratio * 2 + 4 - r * (1 << excess), scale)
-    path.assume_product((r + 1) * (1 << excess) - ratio * 2, scale)
+        q = path.new_quotient(near * WORD, n * (1 << excess), 0, WORD - 1)
+    above, below = (ratio + error_of(machine) + 1) * 2 - q * (1 << excess), (q + 1) * (1 << excess) - ratio * 2
+    quotient_of(path, above, n, "2^e q <= 2 ratio + 2 (E + 1)")
+    quotient_of(path, below, n, "2 ratio <= 2^e (q + 1)")
+    path.assume_product(above, scale)
+    path.assume_product(below, scale)
     z = machine.poly(arguments[3].cell)
-    rounded = scale * (WORD - 1 - r) + 2**43 - z * 2**44
+    rounded = scale * (WORD - 1 - q) + 2**43 - z * 2**44
     path.prove(rounded, "depth_of is not below")
     path.prove(2**44 - 1 - rounded, "depth_of is not above")
     path.prove(65534 - z, "depth_of leaves it as it is")
 
 
 DEPTH = Subject(TRANSFORM, "depth_fast", depth_domain, depth_check, lemmas={"depth_fast.ratio": near_lemma})
+
+# --- 1 / w ------------------------------------------------------------------------------------------------------------
+
+
+def keep_domain(machine: Machine) -> list[Any]:
+    path = machine.path
+    n, shift = path.atom("N", 2**31, WORD - 1), path.atom("shift", 1, 31)
+    r, k = near_reciprocal(machine, n)
+    if n.constant is None:
+        v = path.atom("v", 0, WORD - 1)
+        of_v = 2**64 - (v + WORD) * n
+        path.assume(of_v - 1)
+        path.assume(n - of_v)
+        require(((v + WORD - r * 2) * n - k * 2 + of_v).constant == 0, "(V - 2 r) N = 2 k - k', k' of V as k of r")
+        quotient_of(path, v + WORD - r * 2, n, "2 r <= V")
+        quotient_of(path, r * 2 + error_of(machine) * 2 - 1 - v - WORD, n, "V < 2 r + 2 E")
+        KEPT[id(path)] = v
+    numbers = machine.exactly("unsigned", shift), machine.exactly("uint32_t", r)
+    return [Pointer([machine.struct("el_screen_vertex")]), *numbers]
+
+
+KEPT: dict[int, Poly] = {}
+
+
+def keep_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """What keep_reciprocal makes of the exact one."""
+    v = KEPT.pop(id(machine.path))
+    if result.poly.constant == 0:
+        return
+    divisor = machine.struct("el_divisor", reciprocal=v, shift=arguments[1].poly)
+    exact = machine.struct("el_screen_vertex")
+    machine.call("keep_reciprocal", Pointer([exact]), Pointer([divisor]))
+    for name in ("w", "w_shift"):
+        machine.path.prove(machine.poly(arguments[0].cell, name) - machine.poly(exact, name), name, zero=True)
+
+
+KEEP = Subject(TRANSFORM, "keep_reciprocal_fast", keep_domain, keep_check, ["keep_reciprocal_fast"])
 
 # --- which way --------------------------------------------------------------------------------------------------------
 
@@ -347,11 +393,32 @@ def vertex_domain(machine: Machine) -> list[Any]:
     w = path.atom("w", 1, 2**31 - 1) if orthographic else machine.poly(vertex, "d")
     machine.put(vertex.content["w"], w)
     machine.contracts = {
-        "el_transform_position": lambda *_: vertex,
+        "position_of": lambda *_: vertex,
         "project_inside": inside_contract,
         "el_project": lambda *_: None,
     }
-    return [Pointer([transform]), machine.array("int16_t", [0, 0, 0]), Pointer([machine.struct("el_screen_vertex")])]
+    screen = machine.struct("el_screen_vertex")
+    VERTICES[id(path)] = (transform, vertex, screen)
+    return [Pointer([transform]), machine.array("int16_t", [0, 0, 0]), Pointer([screen])]
+
+
+VERTICES: dict[int, tuple[Any, Any, Any]] = {}
+
+
+def several_domain(machine: Machine) -> list[Any]:
+    """el_transform_vertices, of one: each is by itself."""
+    transform, position, screen = vertex_domain(machine)
+    row = Cell(ArrayType(machine.type_named("int16_t"), 3), position.cells)
+    return [transform, Pointer([row]), machine.exactly("uint32_t", 1), screen]
+
+
+def vertex_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """The code is el_outcode's, or has its sides and says that the rest is left for later."""
+    transform, vertex, screen = VERTICES.pop(id(machine.path))
+    code, later = machine.poly(screen, "code").known, machine.constant(machine.unit.constants["EL_CODE_LATER"])
+    exact = machine.call("el_outcode", Pointer([transform]), Pointer([vertex])).poly.known
+    sides = exact & machine.constant(machine.unit.constants["EL_CODE_OUTSIDE"])
+    require(code == exact or (len(arguments) == 4 and code == sides | later), "its code")
 
 
 def inside_contract(machine: Machine, arguments: list[Any]) -> None:
@@ -364,8 +431,15 @@ def inside_contract(machine: Machine, arguments: list[Any]) -> None:
         machine.path.prove(bound, "project_inside: |x|, |y| <= w, near <= d")
 
 
-VERTEX = Subject(TRANSFORM, "el_transform_vertex", vertex_domain, modular=["el_transform_vertex"])
-SUBJECTS = {"snap": SNAP, "depth": DEPTH, "inside": project_inside(), "vertex": VERTEX}
+MODULAR = ["el_transform_vertex", "el_transform_vertices", "is_in_view"]
+SUBJECTS = {
+    "snap": SNAP,
+    "depth": DEPTH,
+    "1/w": KEEP,
+    "inside": project_inside(),
+    "vertex": Subject(TRANSFORM, "el_transform_vertex", vertex_domain, vertex_check, MODULAR),
+    "vertices": Subject(TRANSFORM, "el_transform_vertices", several_domain, vertex_check, MODULAR),
+}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -378,27 +452,34 @@ def test_snapping_with_more_bits(bits: int) -> None:
     SNAP.prove(bits)
 
 
+def test_the_nearest_is_what_is_snapped() -> None:
+    nearest_is_snapped(tie=1).prove()
+    nearest_is_snapped(tie=0).fails_with(None)
+
+
 @EVERY_PRECISION
-@pytest.mark.parametrize("name", ["snap", "depth"])
+@pytest.mark.parametrize("name", ["snap", "depth", "1/w"])
 def test_the_compiler_agrees(name: str, bits: int) -> None:
     subject = SUBJECTS[name]
-    modular = ["snap_fast", "reciprocal_word", "el_divide_words"]
-    Subject(TRANSFORM, subject.function, subject.domain, modular=modular).agree(bits, count=200)
+    Subject(TRANSFORM, subject.function, subject.domain, modular=subject.modular).agree(bits, count=200)
 
 
 @pytest.mark.parametrize(
     ("name", "old", "new"),
     [
-        ("snap", "fraction == 0 || ", ""),
-        ("snap", "0U - (half << (s + 2U))", "0U - (half << s)"),
-        ("snap", "(1ULL << (30U - s))", "(1ULL << (29U - s))"),
-        ("depth", "fraction < 5U", "fraction < 1U"),
+        ("snap", "half * (20U << 2)", "half * (18U << 2)"),
+        ("snap", "+ (1U << 29);", "+ (1U << 28);"),
+        ("depth", "OFF = 24", "OFF = 10"),
         ("depth", "depth_scale >> 1) - high", "depth_scale >> 1) - high - 9U"),
-        ("inside", "divisor.reciprocal >> 1 | 1U << 31", "(divisor.reciprocal >> 1 | 1U << 31) - 1U"),
-        ("inside", "divisor.shift <= FAST_SHIFT", "divisor.shift <= FAST_SHIFT + 1"),
-        ("inside", "snap_fast(-vertex->y, transform->size[1]", "snap_fast(-vertex->y, transform->size[0]"),
-        ("vertex", "(uint32_t)vertex.y + w <= 2U * w", "(uint32_t)vertex.y + w <= 2U * w + 1U"),
-        ("vertex", "(uint32_t)vertex.d - (uint32_t)transform->near <=", "(uint32_t)vertex.d <="),
+        ("1/w", "0x10000U - EL_RECIPROCAL_ERROR", "0x10000U - EL_RECIPROCAL_ERROR + 2U"),
+        ("1/w", "rounded > 0xFFFFU ? 0xFFFFU", "rounded > 0x10000U ? 0xFFFFU"),
+        ("inside", "el_reciprocal_near(w << shift)", "el_reciprocal_near(w << shift | 1U)"),
+        ("inside", "(w - (uint32_t)vertex->y) << (shift - 1U)", "(w + (uint32_t)vertex->y) << (shift - 1U)"),
+        ("inside", "snap_fast(y, transform->size[1]", "snap_fast(y, transform->size[0]"),
+        ("inside", "el_transform_is_orthographic(transform) || !depth_fast", "!depth_fast"),
+        ("vertex", "(uint32_t)vertex->y + w <= 2U * w", "(uint32_t)vertex->y + w <= 2U * w + 1U"),
+        ("vertex", "(uint32_t)vertex->d - near <=", "(uint32_t)vertex->d <="),
+        ("vertices", "(outside_code(transform, &vertex) | EL_CODE_LATER)", "(EL_CODE_LATER)"),
     ],
 )
 def test_the_proof_can_fail(name: str, old: str, new: str) -> None:

@@ -14,18 +14,17 @@ stays within 0..255.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 import contracts
 from c_values import ArrayType, Cell, Memory
-from proof import Fault, Machine, Number, Pointer, Poly, Subject, congruent
+from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from symbolic import Infeasible, require
 
 ROWS, GATHER = "raster/rows.c", "raster/gather.c"
-SCREEN = 2040
-PLANE_ERROR = 1 + 2 * (2 * SCREEN)  # units of 2^-32, and less
 COLOUR_ERROR = 4080  # units of 2^-24, and less
 HALF_Q24 = 128 << 16
 LEAST_COLOUR, MOST_COLOUR = HALF_Q24 - COLOUR_ERROR, (255 << 24) + HALF_Q24 + COLOUR_ERROR
@@ -34,7 +33,7 @@ WORD = 1 << 32
 
 
 def test_colours_do_not_wrap() -> None:
-    assert PLANE_ERROR <= 1 << 13, "HALF_Q32's little more"
+    assert contracts.PLANE_ERROR <= 1 << 13, "HALF_Q32's little more"
     assert LEAST_COLOUR >= 0 and MOST_COLOUR < 1 << 32
 
 
@@ -102,7 +101,10 @@ def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
         half = added.terms.get((), 0) % modulus(name)
         congruent(added, Poly.of(half), modulus(name), "the value at the first pixel of the screen, and")
         if name == "z":
-            require((1 << 31) + PLANE_ERROR <= half <= (1 << 32) - PLANE_ERROR, "a half and the plane's error")
+            require(
+                (1 << 31) + contracts.PLANE_ERROR <= half <= (1 << 32) - contracts.PLANE_ERROR,
+                "a half and the plane's error",
+            )
         else:
             require(half == 0, "nothing: its half is in it")
     machine.call("span_step", Pointer([result]), of)
@@ -230,7 +232,8 @@ def texel_domain(machine: Machine) -> list[Any]:
     width, height = (machine.path.choose(machine.path.atom(name, 0, 10)) for name in ("width_log2", "height_log2"))
     texture = machine.struct("el_texture", width_log2=width, height_log2=height)
     texture.content["texels"].content = Memory(machine.type_named("uint16_t"), 1 << (width + height))
-    return [Pointer([texture]), machine.number("uint32_t", "u_q16"), machine.number("uint32_t", "v_q16")]
+    source = machine.call("source_of", Pointer([texture]))
+    return [Pointer([source]), machine.number("uint32_t", "u_q16"), machine.number("uint32_t", "v_q16")]
 
 
 TEXEL = Subject(ROWS, "texel_at", texel_domain)
@@ -270,56 +273,114 @@ def lit_check(machine: Machine, arguments: list[Any], result: Number) -> None:
 
 
 LIT = Subject(GATHER, "lit_q8", lit_domain, lit_check)
+LIT_SMALL = replace(LIT, core=SMALL_CODE)
 
 
 def flat_domain(machine: Machine) -> list[Any]:
-    """One draw of one triangle, with the mean of its vertices or with the first; the light is proven above."""
+    """One draw of one triangle, lit or not, with the mean of its vertices or with the first, or in a colour of its own.
+
+    The light is proven above.
+    """
     path = machine.path
     material, mesh, draw = (machine.struct(name) for name in ("el_material", "el_mesh", "el_draw_state"))
-    flags = machine.constant(machine.unit.constants["EL_MATERIAL_FLAT_MEAN"]) * path.choose(path.atom("mean", 0, 1))
-    machine.put(material.content["flags"], flags)
+    mean, own, lit = (path.choose(path.atom(name, 0, 1)) for name in ("mean", "own", "lit"))
+    machine.put(material.content["flags"], machine.constant(machine.unit.constants["EL_MATERIAL_FLAT_MEAN"]) * mean)
     draw.content["material"].content, draw.content["mesh"].content = Pointer([material]), Pointer([mesh])
     index = machine.exactly("uint16_t", 0)
     mesh.content["triangles"].content = Pointer([_row(machine, "uint16_t", [0, 0, 0])])
     mesh.content["normals"].content = Pointer([_row(machine, "int8_t", [0, 0, 127])])
     colours_of = _row(machine, "uint8_t", [path.atom(f"colour{i}", 0, 255) for i in range(3)])
-    mesh.content["triangle_colours"].content = Pointer([colours_of])
-    material.content["light"].content = Pointer([machine.struct("el_light")])
+    null = machine.exactly("int", 0)
+    mesh.content["triangle_colours"].content = Pointer([colours_of]) if own else null
+    mesh.content["colours"].content = null if own else Pointer([colours_of])
+    material.content["light"].content = Pointer([machine.struct("el_light")]) if lit else null
     return [Pointer([draw]), index, machine.exactly("_Bool", 0)]
+
+
+def flat_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """What is not lit, and no mean, has the colour as it is."""
+    draw = arguments[0].cell.content
+    mesh, material = draw["mesh"].content.cell.content, draw["material"].content.cell.content
+    own = isinstance(mesh["triangle_colours"].content, Pointer)
+    if isinstance(material["light"].content, Pointer) or (not own and machine.poly(material["flags"]).known):
+        return
+    whose = "triangle_colours" if own else "colours"
+    colour = [machine.load(cell) for cell in mesh[whose].content.cell.content]
+    machine.path.prove(result.poly - machine.call("el_rgb565", *colour).poly, "the colour itself", zero=True)
 
 
 def _row(machine: Machine, c_type: str, values: list[Any]) -> Any:
     return Cell(ArrayType(machine.type_named(c_type), 3), machine.array(c_type, values).cells)
 
 
+def any_light(machine: Machine, _: list[Any]) -> Number:
+    """light_q8 and lit_q8, proven above."""
+    return machine.number("uint16_t", "light", 0, 255 * 256)
+
+
 FLAT = Subject(
-    GATHER,
-    "flat_colour",
-    flat_domain,
-    contracts={"light_q8": lambda machine, _: machine.number("uint32_t", "light", 0, 255 * 256)},
-    packs=True,
+    GATHER, "flat_colour", flat_domain, flat_check, contracts={"light_q8": any_light, "lit_q8": any_light}, packs=True
 )
 
 
-def gather_w_domain(machine: Machine) -> list[Any]:
-    """Each w depends on its own shift and on the least; the corners are treated alike. So: all pairs of the two."""
+def points_domain(machine: Machine) -> list[Any]:
+    """Each w depends on its own shift and on the least; the corners are treated alike. So: all pairs of the two.
+
+    Of a thin record the numbers come from the vertices instead, all others the same: with the least shift of all.
+    """
     path = machine.path
     least, own = path.choose(path.atom("least", 0, 31)), path.choose(path.atom("own", 0, 31))
     if own < least:
         raise Infeasible
     shifts = [own, least, least]
-    record = machine.struct("el_record_perspective", w_shifts=sum(s << (5 * i) for i, s in enumerate(shifts)))
-    machine.put(record.content["w"], [path.atom(f"w{i}", 1 << 15, 65535) for i in range(3)])
-    return [Pointer([record]), Pointer([machine.struct("el_corner") for _ in range(3)])]
+    w = [path.atom(f"w{i}", 1 << 15, 65535) for i in range(3)]
+    POINTS[id(path)] = (w, shifts)
+    thin = least == 0 and path.choose(path.atom("thin", 0, 1))
+    draw, record = machine.struct("el_draw_state"), machine.struct("el_record", index=0)
+    material = machine.struct("el_material", shading=machine.constant(machine.unit.constants["EL_SHADE_TEXTURED"]))
+    draw.content["material"].content = Pointer([material])
+    if thin:
+        mesh = machine.struct("el_mesh")
+        draw.content["mesh"].content = Pointer([mesh])
+        mesh.content["triangles"].content = Pointer([_row(machine, "uint16_t", [2, 1, 0])])
+        mesh.content["positions"].content = Pointer([_row(machine, "int16_t", [2 - i] * 3) for i in range(3)])
+    else:
+        # What C takes for the first member of a larger object: here one object has the members of both.
+        record.content |= machine.struct(
+            "el_record_perspective", w=w, w_shifts=sum(s << (5 * i) for i, s in enumerate(shifts))
+        ).content
+        for point in record.content["at"].content["points"].content:
+            machine.put(point.content["x"], 0)
+            machine.put(point.content["y"], 0)
+            machine.put(point.content["z"], 0)
+    machine.contracts = {"el_transform_vertex": lambda machine, arguments: transformed(machine, arguments, w, shifts)}
+    kind = machine.constant(machine.unit.constants["EL_RECORD_THIN" if thin else "EL_RECORD_PERSPECTIVE"])
+    corners = Pointer([machine.struct("el_corner") for _ in range(3)])
+    return [Pointer([draw]), Pointer([record]), machine.exactly("uint32_t", kind), corners]
 
 
-def gather_w_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """1 <= w < 2^31 for each, and the largest of them has its top bit."""
-    corners = [machine.poly(cell, "w") for cell in arguments[1].cells]
-    for w in corners:
-        machine.path.prove(w - 1, "w >= 1")
-        machine.path.prove((1 << 31) - 1 - w, "w < 2^31")
-    require(any(machine.path.holds(w - (1 << 30)) for w in corners), "the largest w is 2^30 at least")
+POINTS: dict[int, tuple[list[Poly], list[int]]] = {}
+
+
+def transformed(machine: Machine, arguments: list[Any], w: list[Poly], shifts: list[int]) -> None:
+    """el_transform_vertex: the vertex whose number its position is."""
+    which = machine.poly(arguments[1].cell).known
+    for name, value in {"x": 0, "y": 0, "z": 0, "w": w[which], "w_shift": shifts[which]}.items():
+        machine.put(arguments[2].cell.content[name], value)
+
+
+def points_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """1 <= w < 2^31 for each, and the largest of them has its top bit; each is what it was, cut off, or 1."""
+    path, (w, shifts) = machine.path, POINTS.pop(id(machine.path))
+    corners = [machine.poly(cell, "w") for cell in arguments[3].cells]
+    for corner, was, shift in zip(corners, w, shifts, strict=True):
+        path.prove(corner - 1, "w >= 1")
+        path.prove((1 << 31) - 1 - corner, "w < 2^31")
+        rest = was * 2**15 - corner * (1 << shift - min(shifts))
+        path.prove((1 << shift - min(shifts)) - 1 - rest, "not below what it was")
+        if corner.constant != 1:
+            path.prove(rest, "not above")
+    require(any(path.holds(corner - (1 << 30)) for corner in corners), "the largest w is 2^30 at least")
 
 
 SUBJECTS = {
@@ -333,8 +394,9 @@ SUBJECTS = {
     "texel": TEXEL,
     "light": LIGHT,
     "lit": LIT,
+    "lit, small code": LIT_SMALL,
     "flat": FLAT,
-    "gather_w": Subject(GATHER, "gather_w", gather_w_domain, gather_w_check),
+    "points": Subject(GATHER, "gather_points", points_domain, points_check),
 }
 
 
@@ -366,10 +428,15 @@ def test_the_compiler_agrees(name: str) -> None:
         ("coloured", ROWS, "s->green >> 26 << 5", "s->green >> 25 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
         ("texel", ROWS, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
+        ("texel", ROWS, "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),
         ("light", GATHER, "value > 0xFF00U ? 0xFF00U", "value > 0xFF01U ? 0xFF00U"),
         ("lit", GATHER, "light + 127U", "light + 128U"),
+        ("lit", GATHER, "rest + 1U + (rest >> 8)", "rest + (rest >> 8)"),
+        ("lit, small code", GATHER, "n / 255U", "n / 256U"),
         ("flat", GATHER, "count + 128U", "count + 256U"),
-        ("gather_w", GATHER, "w == 0 ? 1U : w", "w"),
+        ("flat", GATHER, "el_rgb565(own[0], own[1], own[2])", "el_rgb565(own[0], own[1], own[1])"),
+        ("points", GATHER, "scaled == 0 ? 1U : scaled", "scaled"),
+        ("points", GATHER, "w_shifts >> (5 * i)", "w_shifts >> (4 * i)"),
     ],
 )
 def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:

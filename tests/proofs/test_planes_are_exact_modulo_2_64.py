@@ -14,19 +14,35 @@ eo + ex (i - column) + ey (j - row), where an e is what a truncation cut off, be
 At a covered pixel the plane's value is a mean of the corners' with weights that are not negative, the edge functions
 over A, so it lies between the corners' values, which fit 32 bits: that is why the modulus loses nothing.
 
-Small triangles have the same dividends in 32 bits, and so the same quotients. Of colours, 8.8, each of the three is
-rounded to 2^-24: in these units it is off by at most 1/2 + 2^-16, and the value by less than 8160 / 2 < 2^12.
+Of small triangles, quotients are per sub-pixel, f a / A and f b / A, and Z = f v0 + Qx X + Qy Y: times A it differs
+from the plane by ex X + ey Y. X and Y are means of the corners' at covered pixels, too, so at most EL_SMALL_SUB: Z is
+off by less than 2046 units.
+
+Of colours, 8.8, each of the three that the C has, the offset and those per pixel and row, is rounded to 2^-24. In these
+units each is off by at most 1/2 and what truncation cut off, and the value by less than 8160 / 2 < 2^12.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
 
 import contracts
 from c_values import IntType
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown, congruent
+from proof import (
+    EVERY_PRECISION,
+    SMALL_CODE,
+    Fault,
+    Machine,
+    Number,
+    Pointer,
+    Poly,
+    Subject,
+    as_unknown,
+    congruent,
+)
 from symbolic import require
 
 FILE = "raster/plane.c"
@@ -92,7 +108,7 @@ FRAME = Subject(
     "el_plane_frame_make",
     frame_domain,
     frame_check,
-    ["el_abs_u64", "within_small"],
+    ["el_abs_u64"],
     {"el_divisor_make": make_divisor},
     {"el_plane_frame_make.area": area_lemma},
 )
@@ -114,8 +130,21 @@ class Quotients:
         return machine.exactly("uint64_t", quotient - path.atom("k", -(2**31), 2**31) * RING)
 
 
-# What a plane is made from: corners, values, the first pixel, the left edge's whole step, the area, the quotients.
-State = tuple[list[Poly], list[Poly], list[Poly], Poly, Poly, Poly, Poly, Quotients]
+@dataclass(frozen=True)
+class State:
+    """What a plane is made from."""
+
+    x: list[Poly]
+    y: list[Poly]
+    values: list[Poly]
+    first_x: Poly
+    first_row: Poly
+    step: Poly  # the left edge's, in whole pixels
+    area: Poly
+    quotients: Quotients
+    by_parts: bool  # quotients per sub-pixel
+
+
 STATES: dict[int, State] = {}
 
 
@@ -138,7 +167,9 @@ def anchored(machine: Machine, arguments: list[Any]) -> Any:
 CENTRES: dict[int, list[Poly]] = {}
 
 
-def frame_of(machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool) -> tuple[Any, tuple[Poly, ...]]:
+def frame_of(
+    machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool
+) -> tuple[Any, tuple[Poly, Poly, Poly, Poly]]:
     """A frame at any first pixel of the left edge's, with any of its steps."""
     path, guard = machine.path, machine.constant(machine.unit.constants["EL_GUARD_SUB"])
     first = path.atom("first_x", -2041, 2041), path.atom("first_row", 0, SCREEN - 1)
@@ -169,10 +200,10 @@ def prepared(machine: Machine, values: list[Poly], corner: Any, small: bool) -> 
         "divide": quotients.divide,
         "el_divide_i32_q32": quotients.divide,
         "el_plane_times": contracts.plane_times,
+        "el_multiply_u64": contracts.multiply_u64,
     }
     machine.contracts = {} if area.constant is not None else exact
-    first_x, first_row, step, magnitude = numbers
-    STATES[id(machine.path)] = (x, y, values, first_x, first_row, step, magnitude, quotients)
+    STATES[id(machine.path)] = State(x, y, values, *numbers, quotients, small)
     return frame
 
 
@@ -192,9 +223,7 @@ def plane_domain(fraction: bool) -> Any:
 def small_corners(machine: Machine) -> Any:
     """A small triangle: only differences count, and where the first corner is in its pixel."""
     path = machine.path
-    x, y, area = corners(machine)
-    if area.constant is not None:
-        return x, y, area
+    x, y, _ = corners(machine)
     most = machine.constant(machine.unit.constants["EL_SMALL_SUB"])
     differences = [path.atom(name, -most, most) for name in ("dx1", "dx2", "dy1", "dy2")]
     x = [x[0], x[0] + differences[0], x[0] + differences[1]]
@@ -217,15 +246,27 @@ def gradient_lemma(machine: Machine, value: Number) -> Number:
     return as_unknown(machine, value)
 
 
-def check_quotients(machine: Machine, frame: Any, f: int) -> tuple[Poly, Poly]:
-    """What was divided is what the derivation says; columns and rows from the first corner's pixel to (i, j).
+@dataclass(frozen=True)
+class Sum:
+    """Z = first + offset + dx columns + dy rows, of a pixel that lies so far from the first corner's."""
+
+    offset: Poly
+    dx: Poly
+    dy: Poly
+    columns: Poly
+    rows: Poly
+
+
+def check_quotients(machine: Machine, frame: Any, f: int) -> Sum:
+    """What was divided is what the derivation says, and what is made from the quotients is off by no more than it says.
 
     Z A is the plane times A but for what the truncations cut off, in exact polynomials.
     """
     path = machine.path
-    x, y, values, _, _, _, area, quotients = STATES[id(path)]
+    state = STATES[id(path)]
+    x, y, values, area = state.x, state.y, state.values, state.area
     scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
-    (for_x, qx), (for_y, qy), (for_offset, qo) = quotients.made
+    (for_x, qx), (for_y, qy), *others = state.quotients.made
     column, row = path.floor(x[0], scale), path.floor(y[0], scale)
     to_x, to_y = CENTRES.pop(id(path))
     path.prove(to_x - (column * scale + scale // 2 - x[0]), "to_centre_x", zero=True)
@@ -240,71 +281,87 @@ def check_quotients(machine: Machine, frame: Any, f: int) -> tuple[Poly, Poly]:
     )
     path.prove(a_unknown - a, "a", zero=True)
     path.prove(b_unknown - b, "b", zero=True)
-    path.prove(for_x - a_unknown * scale, "the dividend of dx", zero=True)
-    path.prove(for_y - b_unknown * scale, "the dividend of dy", zero=True)
-    require((for_offset - a_unknown * to_x - b_unknown * to_y).constant == 0, "the offset's dividend")
+    per_pixel = 1 if state.by_parts else scale
+    path.prove(for_x - a_unknown * per_pixel, "the dividend of dx", zero=True)
+    path.prove(for_y - b_unknown * per_pixel, "the dividend of dy", zero=True)
 
     columns, rows = path.atom("i", 0, SCREEN - 1) - column, path.atom("j", 0, SCREEN - 1) - row
-    z = values[0] * f + qo + qx * columns + qy * rows
-    exact_x, exact_y = columns * scale + to_x, rows * scale + to_y
-    plane_at = (values[0] * area + a_unknown * exact_x + b_unknown * exact_y) * f
-    cut_off = [quotient * area - dividend * f for dividend, quotient in ((for_offset, qo), (for_x, qx), (for_y, qy))]
-    error = cut_off[0] + cut_off[1] * columns + cut_off[2] * rows
+    aside, down = columns * scale + to_x, rows * scale + to_y
+    plane_at = (values[0] * area + a_unknown * aside + b_unknown * down) * f
+    cut_off_x, cut_off_y = qx * area - for_x * f, qy * area - for_y * f
+    # Each is below A.
+    if state.by_parts:
+        made = Sum(qx * to_x + qy * to_y, qx * scale, qy * scale, columns, rows)
+        error = cut_off_x * aside + cut_off_y * down
+        furthest = 2 * machine.constant(machine.unit.constants["EL_SMALL_SUB"])
+    else:
+        ((for_offset, qo),) = others
+        require((for_offset - a_unknown * to_x - b_unknown * to_y).constant == 0, "the offset's dividend")
+        made = Sum(qo, qx, qy, columns, rows)
+        error = qo * area - for_offset * f + cut_off_x * columns + cut_off_y * rows
+        furthest = 1 + sum(max(-path.bounds(part)[0], path.bounds(part)[1]) for part in (columns, rows))
+        require(furthest <= MOST_PIXELS, "the furthest pixel")
+    z = values[0] * f + made.offset + made.dx * columns + made.dy * rows
     require((z * area - plane_at - error).constant == 0, "Z A is the plane and what was cut off")
-    # Each is below A: the error is below 1 + |columns| + |rows|, and the header says 2^-19.
-    furthest = 1 + sum(max(-path.bounds(part)[0], path.bounds(part)[1]) for part in (columns, rows))
-    require(furthest <= MOST_PIXELS < 2 ** (32 - 19), "the error is below 2^-19")
+    require(furthest < contracts.PLANE_ERROR < 2 ** (32 - 19), "the error is below 2^-19")
 
     # The plane goes through the corners, and is their mean with the edge functions as weights.
     px, py = path.atom("px", -(2**20), 2**20), path.atom("py", -(2**20), 2**20)
     weights = [((x[k] - px) * (y[m] - py) - (x[m] - px) * (y[k] - py)) * sign for k, m in ((1, 2), (2, 0), (0, 1))]
-    mean = sum((weight * value for weight, value in zip(weights, values, strict=True)), Poly.of(0))
-    value = values[0] * area + a * (px - x[0]) + b * (py - y[0])
-    require((value - mean).constant == 0, "the plane is the mean of the corners")
     require((sum(weights, Poly.of(0)) - area).constant == 0, "its weights add up to 1")
-    return columns, rows
+    value = values[0] * area + a * (px - x[0]) + b * (py - y[0])
+    for at, of in ((value, values), (px * area, x), (py * area, y)):
+        mean = sum((weight * corner for weight, corner in zip(weights, of, strict=True)), Poly.of(0))
+        require((at - mean).constant == 0, "values, and places, are means of the corners'")
+    return made
 
 
 # 1 + columns + rows from the first corner's pixel to any of the screen.
 MOST_PIXELS = 1 + 2 * (2 * SCREEN - 1)
 
 
+def at_pixel(machine: Machine, plane: Any, made: Sum) -> Poly:
+    """What the C has at that pixel."""
+    path, state = machine.path, STATES[id(machine.path)]
+    scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
+    column, row = path.floor(state.x[0], scale), path.floor(state.y[0], scale)
+    dx, down = machine.poly(plane["dx"]), machine.poly(plane["down"])
+    aside = dx * (made.columns + column - state.first_x)
+    return machine.poly(plane["value"]) + aside + (down - dx * state.step) * (made.rows + row - state.first_row)
+
+
 def plane_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """What is at pixel (i, j) is Z modulo 2^64."""
     plane, frame = arguments[0].cell.content, arguments[1].cell
     f = 1 << (32 - (arguments[3].poly.known if len(arguments) > 3 else 0))
-    columns, rows = check_quotients(machine, frame, f)
-    x, y, values, first_x, first_row, step, _, quotients = STATES.pop(id(machine.path))
-    (_, qx), (_, qy), (_, qo) = quotients.made
-    scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
-    column, row = machine.path.floor(x[0], scale), machine.path.floor(y[0], scale)
-
-    # What is at pixel (i, j) is Z modulo 2^64.
-    dx, down = machine.poly(plane["dx"]), machine.poly(plane["down"])
-    dy = down - dx * step
-    at_pixel = machine.poly(plane["value"]) + dx * (columns + column - first_x) + dy * (rows + row - first_row)
-    congruent(at_pixel, values[0] * f + qo + qx * columns + qy * rows, RING, "the value is Z modulo 2^64")
+    made = check_quotients(machine, frame, f)
+    value = at_pixel(machine, plane, made)
+    first = STATES.pop(id(machine.path)).values[0]
+    z = first * f + made.offset + made.dx * made.columns + made.dy * made.rows
+    congruent(value, z, RING, "the value is Z modulo 2^64")
 
 
 def channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     """The three numbers are Z's, each rounded to 2^-24, and the value has its half."""
     path = machine.path
     channel, frame = arguments[0].cell.content, arguments[1].cell
-    columns, rows = check_quotients(machine, frame, WORD)
-    x, y, values, first_x, first_row, step, _, quotients = STATES.pop(id(path))
+    made = check_quotients(machine, frame, WORD)
+    value = at_pixel(machine, channel, made)
+    state = STATES.pop(id(path))
+    exact = (made.offset, made.dx, made.dy)
+    rounded = [path.floor(part + 2**15, 2**16) for part in exact]
+    for part, whole in zip(exact, rounded, strict=True):
+        path.prove(whole * 2**16 - part + 2**15, "rounded down by 1/2 at most")
+        path.prove(part + 2**15 - whole * 2**16, "rounded up by 1/2 at most")
+    offset, dx, dy = rounded
+    z = state.values[0] * 2**16 + HALF_Q24 + offset + dx * made.columns + dy * made.rows
+    congruent(value, z, WORD, "the value is Z, rounded, modulo 2^32")
+    # In units of 2^-24: 1/2 for each column and row and the offset, and what truncation cuts off, of each or in all.
+    small = machine.constant(machine.unit.constants["EL_SMALL_SUB"])
     scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
-    column, row = path.floor(x[0], scale), path.floor(y[0], scale)
-    rounded = [path.floor(quotient + 2**15, 2**16) for _, quotient in quotients.made]
-    for (_, quotient), whole in zip(quotients.made, rounded, strict=True):
-        path.prove(whole * 2**16 - quotient + 2**15, "rounded down by 1/2 at most")
-        path.prove(quotient + 2**15 - whole * 2**16, "rounded up by 1/2 at most")
-    rx, ry, ro = rounded
-    dx, down = machine.poly(channel["dx"]), machine.poly(channel["down"])
-    dy = down - dx * step
-    at_pixel = machine.poly(channel["value"]) + dx * (columns + column - first_x) + dy * (rows + row - first_row)
-    z = values[0] * 2**16 + HALF_Q24 + ro + rx * columns + ry * rows
-    congruent(at_pixel, z, WORD, "the value is Z, rounded, modulo 2^32")
-    # In units of 2^-24: 1/2 and what truncation cuts off, 2^-16, for each column and row and the offset.
-    require(MOST_PIXELS * (2**15 + 1) < CHANNEL_ERROR * 2**16, "the error is below 2^-25 * 8160")
+    pixels = 1 + 2 * (small // scale + 1) if state.by_parts else MOST_PIXELS
+    cut_off = 2 * small if state.by_parts else MOST_PIXELS
+    require(pixels * 2**15 + cut_off < CHANNEL_ERROR * 2**16, "the error is below 2^-25 * 8160")
 
 
 WORD = 1 << 32
@@ -315,10 +372,12 @@ CHANNEL_ERROR = 4080
 # Their own proofs are elsewhere; samples execute them.
 DIVISION = [
     "divide", "el_divide_q32", "el_divide_wide_q32", "el_divide_i32_q32", "magnitude_of", "el_abs_u64",
-    "el_divide_words", "reciprocal_word", "within_small", "el_plane_times", "el_multiply_u64",
+    "el_divide_words", "el_reciprocal_word", "room_within_small", "el_plane_times", "el_multiply_u64",
 ]  # fmt: skip
 
 
+# The sum of two parts is meant modulo 2^64.
+GRADIENTS = ["wide_gradient", "small_gradient"]
 LEMMAS = {f"{kind}_gradient.{name}": gradient_lemma for kind in ("wide", "small") for name in "ab"}
 
 
@@ -328,15 +387,20 @@ def plane(fraction: bool) -> Subject:
     )
 
 
-def depth(small: bool) -> Subject:
+# Of which each kind of code has its own way.
+CODES = pytest.mark.parametrize("core", ["", SMALL_CODE], ids=["fast", "small"])
+
+
+def depth(small: bool, core: str = "") -> Subject:
     domain = short_domain("el_plane", 65535, small)
-    return Subject(FILE, "el_plane_make_u16", domain, plane_check, ["start_plane", *DIVISION], lemmas=LEMMAS)
+    modular = ["start_plane", *GRADIENTS, *DIVISION]
+    return Subject(FILE, "el_plane_make_u16", domain, plane_check, modular, lemmas=LEMMAS, core=core)
 
 
-def colour(small: bool) -> Subject:
+def colour(small: bool, core: str = "") -> Subject:
     domain = short_domain("el_channel", 255 * 256, small)
-    modular = ["el_channel_make", "to_q24", *DIVISION]
-    return Subject(FILE, "el_channel_make", domain, channel_check, modular, lemmas=LEMMAS)
+    modular = ["el_channel_make", "to_q24", *GRADIENTS, *DIVISION]
+    return Subject(FILE, "el_channel_make", domain, channel_check, modular, lemmas=LEMMAS, core=core)
 
 
 FRACTION = pytest.mark.parametrize("fraction", [False, True])
@@ -386,14 +450,16 @@ def test_what_is_divided(bits: int) -> None:
 
 
 @EVERY_PRECISION
+@CODES
 @pytest.mark.parametrize("make", [depth, colour])
-def test_every_depth_and_colour(bits: int, make: Any) -> None:
-    make(small=False).prove(bits)
+def test_every_depth_and_colour(bits: int, make: Any, core: str) -> None:
+    make(small=False, core=core).prove(bits)
 
 
+@CODES
 @pytest.mark.parametrize("make", [depth, colour])
-def test_every_depth_and_colour_in_32_bits(make: Any) -> None:
-    make(small=True).prove()
+def test_every_depth_and_colour_by_parts(make: Any, core: str) -> None:
+    make(small=True, core=core).prove()
 
 
 @EVERY_PRECISION
@@ -403,9 +469,16 @@ def test_the_compiler_agrees(bits: int, fraction: bool) -> None:
 
 
 @EVERY_PRECISION
+@CODES
 @pytest.mark.parametrize("make", [depth, colour])
-def test_the_compiler_agrees_on_depth_and_colour(bits: int, make: Any) -> None:
-    make(small=False).agree(bits, count=100)
+def test_the_compiler_agrees_on_depth_and_colour(bits: int, make: Any, core: str) -> None:
+    make(small=False, core=core).agree(bits, count=50)
+
+
+@CODES
+@pytest.mark.parametrize("make", [depth, colour])
+def test_the_compiler_agrees_on_small_triangles(make: Any, core: str) -> None:
+    make(small=True, core=core).agree(count=50)
 
 
 @EVERY_PRECISION
@@ -419,11 +492,13 @@ def test_the_proof_can_fail(bits: int) -> None:
 
 
 def test_the_proof_of_small_triangles_can_fail() -> None:
-    """Twice the size would overflow; a term too few is found as in the wide way."""
-    depth(True).fails_with(Fault("raster/plane.h", "4 ? 1023 : -1", "4 ? 1025 : -1"))
-    FRAME.fails_with(Fault(FILE, "<= 2U * EL_SMALL_SUB", "<= 2U * EL_SMALL_SUB + 1U"))
-    text = "g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y"
-    depth(True).fails_with(Fault(FILE, text, text.replace("b * at->to_centre_y", "b * at->to_centre_x")))
+    """Four times the size would be off by too much; a term too few is found as in the wide way."""
+    depth(True).fails_with(Fault("raster/plane.h", "4 ? 1023 : -1", "4 ? 4096 : -1"))
+    FRAME.fails_with(Fault(FILE, "(EL_SMALL_SUB + difference)", "(EL_SMALL_SUB + 1 + difference)"))
+    text = "+ el_multiply_u64(per_y, at->to_centre_y)"
+    depth(True).fails_with(Fault(FILE, text, text.replace("centre_y", "centre_x")))
+    depth(True, SMALL_CODE).fails_with(Fault(FILE, "by_parts ? 1 : EL_SUBPIXELS", "EL_SUBPIXELS"))
+    colour(True).fails_with(Fault(FILE, "g->dy = per_y << EL_SUBPIXEL_BITS", "g->dy = per_y << 5"))
 
 
 def test_the_proof_finds_an_area_beyond_32_bits() -> None:

@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
+import contracts
 from proof import ARMV6M, Fault, Machine, Number, Poly, Subject, congruent
 
-FIXED, PLANE = "base/fixed.c", "raster/plane.c"
+FIXED, FIXED_H, PLANE = "base/fixed.c", "base/fixed.h", "raster/plane.c"
 RING = 1 << 64
 MOST_PIXELS = 1 << 22  # el_plane_times
 
@@ -22,20 +23,21 @@ def word(machine: Machine, name: str) -> Poly:
     return machine.path.atom(f"{name}_high", 0, 65535) * 65536 + machine.path.atom(f"{name}_low", 0, 65535)
 
 
-def double_word(machine: Machine) -> Number:
+def double_word(machine: Machine, name: str) -> Poly:
     """uint64_t, as its upper word and the lower one's half words."""
-    return machine.exactly("uint64_t", machine.path.atom("a", 0, 2**32 - 1) * 2**32 + word(machine, "a"))
+    return machine.path.atom(name, 0, 2**32 - 1) * 2**32 + word(machine, name)
 
 
-def multiply_domain(machine: Machine) -> list[Any]:
-    return [double_word(machine), machine.number("int32_t", "b", -65535, 65535)]
+def whole(low: int, high: int) -> Any:
+    """Any number of these, in one piece."""
+    return lambda machine, name: machine.path.atom(name, low, high)
 
 
 def times_domain(machine: Machine) -> list[Any]:
     """Counts within 16 bits, and beyond them on either side."""
-    a, count = double_word(machine), machine.number("int32_t", "count", 1 - MOST_PIXELS, MOST_PIXELS - 1)
+    a, count = double_word(machine, "a"), machine.number("int32_t", "count", 1 - MOST_PIXELS, MOST_PIXELS - 1)
     within(machine, count.poly, -65535, 65535)
-    return [a, count]
+    return [machine.exactly("uint64_t", a), count]
 
 
 def within(machine: Machine, number: Poly, low: int, high: int) -> None:
@@ -44,13 +46,47 @@ def within(machine: Machine, number: Poly, low: int, high: int) -> None:
         machine.path.decide(high - number, number - high - 1)
 
 
-def product_domain(machine: Machine) -> list[Any]:
-    return [machine.exactly("uint32_t", word(machine, name)) for name in "ab"]
+def factors(a: tuple[str, Any], b: tuple[str, Any]) -> Any:
+    """Two factors, each by its type and what makes it."""
+    return lambda machine: [
+        machine.exactly(c_type, make(machine, name)) for (c_type, make), name in ((a, "a"), (b, "b"))
+    ]
 
 
-def signed_domain(machine: Machine) -> list[Any]:
-    a = machine.path.atom("a_high", -32768, 32767) * 65536 + machine.path.atom("a_low", 0, 65535)
-    return [machine.exactly("int32_t", a), machine.number("int16_t", "b")]
+def high_domain(machine: Machine) -> list[Any]:
+    """el_multiply_high_i32_u32: any of either sign; -2^31 b <= a b is known."""
+    path = machine.path
+    a, b = path.atom("a", -(2**31), 2**31 - 1), path.atom("b", 0, 2**32 - 1)
+    path.decide(a, -a - 1)
+    path.assume_product(a + 2**31, b)
+    return [machine.exactly("int32_t", a), machine.exactly("uint32_t", b)]
+
+
+def dot_domain(machine: Machine) -> list[Any]:
+    """A row's elements in the two parts that the C has of them, the lower one of either sign; |a| up to EL_DOT_MOST in
+    sum, so that the upper parts' |high| 2^15 add up to 3 * 2^14 more."""
+    path = machine.path
+    row, position, magnitudes = [], [], Poly.of(0)
+    for i in range(3):
+        high, low = path.atom(f"high{i}", -(2**16), 2**16), path.atom(f"low{i}", -(2**14), 2**14 - 1)
+        b = path.atom(f"b{i}", -(2**15), 2**15 - 1)
+        path.decide(low, -low - 1)
+        row.append(high * 2**15 + low)
+        position.append(b)
+        if high.constant is not None:
+            magnitudes += abs(high.constant)
+            continue
+        magnitude = path.atom(f"|high{i}|", 0, 2**16)
+        for bound in (magnitude - high, magnitude + high, magnitude * 2**15 - high * b, magnitude * 2**15 + high * b):
+            path.assume(bound)
+        magnitudes += magnitude
+    path.assume(machine.constant(machine.unit.constants["EL_DOT_MOST"]) + 3 * 2**14 - magnitudes * 2**15)
+    return [machine.array("int32_t", row), machine.array("int16_t", position)]
+
+
+def dot_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    a, b = ([machine.poly(cell) for cell in pointer.cells] for pointer in arguments)
+    machine.path.prove(result.poly - contracts.weighted(a, b), "the sum of the products", zero=True)
 
 
 def modulo_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -61,6 +97,14 @@ def modulo_check(machine: Machine, arguments: list[Any], result: Number) -> None
 def exact_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     a, b = (argument.poly for argument in arguments)
     machine.path.prove(result.poly - a * b, "a b", zero=True)
+
+
+def high_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """floor(a b / 2^32)."""
+    a, b = (argument.poly for argument in arguments)
+    rest = a * b - result.poly * 2**32
+    machine.path.prove(rest, "not above")
+    machine.path.prove(2**32 - 1 - rest, "not below")
 
 
 def area_domain(machine: Machine) -> list[Any]:
@@ -78,18 +122,44 @@ def area_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     machine.path.prove(result.poly - (x1 * y2 - x2 * y1), "the doubled area", zero=True)
 
 
+WORDS = ("uint64_t", double_word)
+HALVES = ("uint32_t", word)
+UNSIGNED, SIGNED = ("uint32_t", whole(0, 2**32 - 1)), ("int32_t", whole(-(2**31), 2**31 - 1))
+SHORT, SHORT_SIGNED = ("uint32_t", whole(0, 65535)), ("int32_t", whole(-65535, 65535))
+
+
+def product_u64(machine: Machine, arguments: list[Any]) -> Number:
+    """el_product_u64, proven here too."""
+    a, b = (argument.poly for argument in arguments)
+    return machine.exactly("uint64_t", a * b)
+
+
 def subjects(core: str) -> dict[str, Subject]:
-    return {
-        "el_multiply_u64": Subject(
-            FIXED, "el_multiply_u64", multiply_domain, modulo_check, ["el_multiply_u64"], core=core
+    def product(name: str, domain: Any, check: Any, *modular: str, file: str = FIXED) -> Subject:
+        return Subject(file, name, domain, check, modular, core=core)
+
+    def of_product(name: str, domain: Any, check: Any) -> Subject:
+        return Subject(FIXED, name, domain, check, [name], {"el_product_u64": product_u64}, core=core)
+
+    made = [
+        product("el_multiply_u16", factors(WORDS, SHORT), modulo_check, "el_multiply_u16"),
+        product("el_multiply_u64", factors(WORDS, SHORT_SIGNED), modulo_check, "el_multiply_u64", "el_multiply_u16"),
+        product("el_product_u64", factors(HALVES, HALVES), exact_check),
+        product("el_product_u32_u16", factors(HALVES, SHORT), exact_check),
+        of_product("el_product_high_u32", factors(UNSIGNED, UNSIGNED), high_check),
+        of_product("el_product_i32", factors(SIGNED, SIGNED), exact_check),
+        of_product("el_multiply_high_i32_u32", high_domain, high_check),
+        product("el_dot_i32_i16", dot_domain, dot_check, "el_add_halves", "el_dot_i32_i16"),
+        product(
+            "el_plane_times",
+            times_domain,
+            modulo_check,
+            *("el_plane_times", "el_multiply_u64", "el_multiply_u16"),
+            file=PLANE,
         ),
-        "el_product_u64": Subject(FIXED, "el_product_u64", product_domain, exact_check, core=core),
-        "el_product_i32_i16": Subject(FIXED, "el_product_i32_i16", signed_domain, exact_check, core=core),
-        "el_plane_times": Subject(
-            PLANE, "el_plane_times", times_domain, modulo_check, ["el_plane_times", "el_multiply_u64"], core=core
-        ),
-        "el_doubled_area": Subject(PLANE, "el_doubled_area", area_domain, area_check, ["el_doubled_area"], core=core),
-    }
+        product("el_doubled_area", area_domain, area_check, "el_doubled_area", file=PLANE),
+    ]
+    return {subject.function: subject for subject in made}
 
 
 CORES = pytest.mark.parametrize("core", ["", ARMV6M], ids=["any", "armv6m"])
@@ -117,11 +187,17 @@ def test_areas_with_more_bits(bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("el_multiply_u64", "base/fixed.h", "factor + (middle >> 16)", "factor + (middle >> 17)"),
-        ("el_multiply_u64", "base/fixed.h", "b < 0 ? 0 - product", "b < -1 ? 0 - product"),
-        ("el_product_u64", "base/fixed.h", "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
-        ("el_product_u64", "base/fixed.h", "(first >> 16) + (second >> 16)", "(first >> 16)"),
-        ("el_product_i32_i16", "base/fixed.h", "(a & 0xFFFF) * b;", "(a & 0x7FFF) * b;"),
+        ("el_multiply_u16", FIXED_H, "* b + (middle >> 16)", "* b + (middle >> 17)"),
+        ("el_multiply_u64", FIXED_H, "b < 0 ? 0 - product", "b < -1 ? 0 - product"),
+        ("el_product_u64", FIXED_H, "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
+        ("el_product_u64", FIXED_H, "(first >> 16) + (second >> 16)", "(first >> 16)"),
+        ("el_product_u32_u16", FIXED_H, "(a >> 16) * b + (low >> 16)", "(a >> 16) * b"),
+        ("el_product_high_u32", FIXED_H, "(el_product_u64(a, b) >> 32)", "(el_product_u64(a, b) >> 33)"),
+        ("el_product_i32", FIXED_H, "+ (b < 0 ? (uint32_t)a : 0U)", "+ (b < 0 ? 0U - (uint32_t)a : 0U)"),
+        ("el_multiply_high_i32_u32", FIXED_H, "- (a < 0 ? b : 0U)", "- (a < 0 ? b - 1U : 0U)"),
+        ("el_dot_i32_i16", FIXED_H, "(uint32_t)a << 17) >> 17", "(uint32_t)a << 16) >> 16"),
+        ("el_dot_i32_i16", FIXED_H, "((int32_t)high >> 17)", "(high >> 17)"),
+        ("el_dot_i32_i16", FIXED_H, "EL_DOT_MOST = 0x7FFF0000", "EL_DOT_MOST = 0x7FFF8000"),
         ("el_plane_times", "raster/plane.h", "(count + 0xFFFF) <= 2U * 0xFFFFU", "(count + 0xFFFF) <= 2U * 0x1FFFFU"),
         ("el_doubled_area", "raster/plane.h", "bias = 1U << 14", "bias = 1U << 15"),
     ],

@@ -1,4 +1,4 @@
-"""raster/texture_walk: the piece test's derivation, its logarithms, and the widths of its numbers.
+"""raster/texture_walk: the piece test's derivation, its logarithms, what rounding adds, and the widths of its numbers.
 
 For u = U / W with U and W linear along a row, W > 0, J = U' W - U W' (the same all along the row), a piece of n pixels
 from W0 to Wn, and t in [0, n], the distance from u to the chord is exactly
@@ -10,13 +10,24 @@ so at most n^2 |J W'| / (4 Wmin^3), Wmin being W at one end. The piece is good e
     3 log2 Wmin >= log2 |J W'| + 2 log2 n - 2 - log2 error
 
 Every logarithm in the C is rounded against the piece, which is checked here in exact integer arithmetic:
-2^(a / 256) >= b is 2^a >= b^256.
+2^(a / 256) >= b is 2^a >= b^256. J is made from whole parts of U and W, and from U' and W' with 4 bits of fraction:
+what that cuts off, less than |U'| + |W'| and less than 2 W + 2 sixteenths, is added to it.
+
+What the walk has for u is not the chord between exact values: knots are off by less than 3 units of 2^-16 texel, and a
+step by at most 5/4 of one, in at most 63 pixels from a knot. That is less than 82 units, and a sixteenth of the
+smallest error, which is left for it, is 128.
+
+Knots are proven where 1 <= W < 2^31 and |U| <= W (test_texture_knots_keep_within_3_units). That holds at the corners,
+so also at covered pixels, where planes are means of the corners'; but they are off by less than PLANE_ERROR there.
+EL_W_MARGIN_Q32 makes up for the error of both planes. It moves u by no more than 2^(shift - 18) / W units; the rounding
+of U at the corners may be 2^(shift - 9) / W.
 """
 
 from __future__ import annotations
 
 import functools
 import itertools
+from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
@@ -24,11 +35,13 @@ import pytest
 import contracts
 from c_execution import Machine as AnyMachine
 from c_source import parse
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
+from contracts import MOST_KNOT, PLANE_ERROR
+from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject
 from symbolic import Fact, Infeasible, Path, prove_over_reals, require
 
 FILE = "raster/texture_walk.c"
-TEXELS = 2048  # |u|, |v| in texels, below
+STEP_ERROR = 1.25  # units of 2^-16 texel
+WORD = 1 << 32
 
 
 def constants(*names: str, fault: Fault | None = None) -> list[int]:
@@ -101,8 +114,9 @@ def check_reserve(fault: Fault | None = None) -> None:
     (reserve,) = constants("ROUNDING_RESERVE_Q8", fault=fault)
     require(2**reserve * 15**256 >= 16**256, "a sixteenth of the error is left for rounding")
     (most,) = constants("EL_MAX_PIECE", fault=fault)
-    # Steps are cut off below 2^-16 per pixel, knots floored below 2^-16: a sixteenth of the smallest error.
-    require((most + 1) * 2**-16 <= 2**-5 / 16, "rounding fits the reserve")
+    # Off at the knots, and by steps from there: no more than a sixteenth of the smallest error.
+    rounding = contracts.KNOT_ERROR + (most - 1) * STEP_ERROR
+    require(rounding <= 2**16 * 2**-5 / 16, "rounding fits the reserve")
 
 
 def check_logarithm(name: str, width: int, upwards: bool, fault: Fault | None = None) -> None:
@@ -160,7 +174,25 @@ def test_the_proof_of_logarithms_can_fail(name: str, width: int, upwards: bool) 
         check_logarithm(name, width, upwards, fault)
 
 
-# --- widths -----------------------------------------------------------------------------------------------------------
+def check_normalised(fault: Fault | None = None) -> None:
+    """Of W with its fraction: whatever its leading zeros are, the same on each of the 128 segments of what is left."""
+    machine = AnyMachine(parse(FILE, 4, fault), Path([]))
+    leading = machine.path.atom("leading", 0, 31)
+    for i in range(128):
+        x = machine.number("uint32_t", "x", 2**31 + (i << 24), 2**31 + (i + 1 << 24) - 1)
+        found = machine.call("log2_of_normalised_q8", x, machine.exactly("unsigned", leading))
+        log = found.poly - (31 - leading) * 256
+        require(log.constant is not None, "constant on a segment, and less by 1 for each leading zero")
+        require((128 + i) ** 256 >= 1 << log.known + 256 * 7, f"log2 of 1 + {i}/128")
+
+
+def test_the_logarithm_of_w_is_rounded_down() -> None:
+    check_normalised()
+    with pytest.raises(AssertionError, match="log2 of 1"):
+        check_normalised(Fault(FILE, "109, 111, 113", "109, 112, 113"))
+
+
+# --- how far u may bend -----------------------------------------------------------------------------------------------
 
 
 def logarithm(name: str) -> Any:
@@ -178,189 +210,61 @@ STEEP = 1 << 59
 
 
 def curvature_domain(machine: Machine) -> list[Any]:
-    """Gradients that are not steep, |dx| < 2^59 as Q32; W below 2^31; U any 32 bits."""
+    """U, W and gradients that are not steep, |dx| < 2^59 as Q32, each with what the C cuts off of it; |U| <= W."""
     path = machine.path
-    dx = path.atom("dx", -STEEP + 1, STEEP - 1)
-    as_unsigned = dx if path.decide(dx, -dx - 1) else dx + 2**64
-    plane = machine.struct("el_plane", dx=as_unsigned)
-    dw = path.atom("w_step_q4", -(2**31) + 1, 2**31 - 1)
-    numbers = (
-        machine.number("int32_t", "w", 1),
-        machine.exactly("int32_t", dw),
-        machine.number("uint8_t", "shift", 0, 27),
-    )
-    return [machine.number("uint64_t", "value_q32"), Pointer([plane]), *numbers]
+    numbers = {}
+    for name, unit, least, most in (("u_step", 2**28, -(2**31), 2**31 - 1), ("w_step", 2**28, -(2**31), 2**31 - 1)):
+        numbers[name] = path.atom(name, least, most), path.atom(f"rest of {name}", 0, unit - 1)
+        path.decide(numbers[name][0], -numbers[name][0] - 1)
+        exact = numbers[name][0] * unit + numbers[name][1]
+        path.assume(exact + STEEP - 1)
+        path.assume(STEEP - 1 - exact)
+    for name, least in (("u", -(2**31)), ("w", 1)):
+        numbers[name] = path.atom(name, least, 2**31 - 1), path.atom(f"rest of {name}", 0, WORD - 1)
+    path.decide(numbers["u"][0], -numbers["u"][0] - 1)
+    (u_step, u_step_rest), (w_step, w_step_rest), (u, u_rest), (w, w_rest) = numbers.values()
+    exact_u, exact_w = u * WORD + u_rest, w * WORD + w_rest
+    path.assume(exact_w - exact_u)
+    path.assume(exact_w + exact_u)
+    if u.constant is None:
+        # What is cut off, times what it is multiplied with.
+        for rest, unit, of in ((w_rest, WORD, u_step), (u_rest, WORD, w_step)):
+            magnitude = of if path.holds(of) else -of
+            path.assume_product(rest, magnitude)
+            path.assume_product(unit - 1 - rest, magnitude)
+        for rest in (u_step_rest, w_step_rest):
+            path.assume_product(rest, exact_w)
+            path.assume_product(2**28 - 1 - rest, exact_w)
+        path.assume_product(w_step_rest, exact_w - exact_u)
+        path.assume_product(w_step_rest, exact_w + exact_u)
+    step = u_step * 2**28 + u_step_rest
+    J_NUMERATOR[id(path)] = step * exact_w - exact_u * (w_step * 2**28 + w_step_rest)
+    signs = [0 if path.holds(of) else 2**64 for of in (step, exact_u)]
+    plane = machine.struct("el_plane", dx=step + signs[0])
+    numbers_of_w = machine.exactly("int32_t", w), machine.exactly("int32_t", w_step)
+    shift = machine.number("uint8_t", "shift", 0, 27)
+    return [machine.exactly("uint64_t", exact_u + signs[1]), Pointer([plane]), *numbers_of_w, shift]
 
 
-def bounded(machine: Machine, value: Number) -> Number:
-    return as_unknown(machine, value, value.type.low, value.type.high)
+J_NUMERATOR: dict[int, Poly] = {}
 
 
-CURVATURE = Subject(
-    FILE,
-    "curvature_q8",
-    curvature_domain,
-    modular=["el_abs_u64"],
-    contracts=LOGS,
-    lemmas={"curvature_q8.value": bounded, "curvature_q8.step_q4": bounded},
-)
-
-
-def knot_domain(machine: Machine) -> list[Any]:
-    """U and W at a covered pixel: |U| 2^shift / W <= 2^28 in Q16 texels (see test_the_quotient_of_a_knot)."""
+def curvature_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """The logarithm is of no less than 16 |J|."""
     path = machine.path
-    # Only the sum of the two shifts counts, here as in the C.
-    total = path.choose(path.atom("total", -31, 27))
-    shift, w_shift = max(total, 0), 32 + min(total, 0)
-    # W >= 1/2 as Q32, so w_shift <= 32; its upper 32 bits, of which the rest cuts off less than one.
-    upper = path.atom("upper", 2**31, 2**32 - 1)
-    numerator = path.atom("U", -(2**63), 2**63 - 1)
-    # |U_q32| 2^shift <= 2^28 w_q32 and w_q32 < (upper + 1) 2^(32 - w_shift).
-    reach = (upper + 1) * (1 << 60 - w_shift)
-    path.assume(reach - numerator * (1 << shift))
-    path.assume(reach + numerator * (1 << shift))
-    value = numerator if path.decide(numerator, -numerator - 1) else numerator + 2**64
-    if upper.constant is None:
-        divisor = contracts.divisor_make(machine, [machine.exactly("uint32_t", upper)])
-    else:
-        divisor = machine.call("el_divisor_make", machine.exactly("uint32_t", upper))
-    base = machine.number("int32_t", "base", -TEXELS << 16, TEXELS << 16)
-    numbers = machine.exactly("uint64_t", value), machine.exactly("uint8_t", shift), base
-    return [*numbers, Pointer([divisor]), machine.exactly("int32_t", w_shift)]
+    j = J_NUMERATOR.pop(id(path))
+    if result.poly.constant is not None:
+        return  # a sample
+    bound = machine.locals["curvature_q8.bound_q4"].poly
+    path.prove(bound * 2**60 - j, "J is not above")
+    path.prove(bound * 2**60 + j, "J is not below")
 
 
-def knot_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """Within the base and 2^28 (and a unit), so that the difference of two knots fits 32 bits."""
-    path = machine.path
-    for bound in (result.poly + KNOT, KNOT - result.poly):
-        path.prove(bound, "|knot| < 2^29.2")
-
-
-KNOT = (TEXELS << 16) + 2**28 + 2
-
-
-def knot_quotient(machine: Machine, arguments: list[Any]) -> Number:
-    """el_divide_floor_i64, and that its quotient is within 2^28 and a unit."""
-    quotient = contracts.divide_floor(machine, arguments)
-    for bound in (quotient.poly + 2**28 + 1, 2**28 + 1 - quotient.poly):
-        machine.path.prove(bound, "|quotient| <= 2^28 + 1")
-        machine.path.assume(bound)
-    return quotient
-
-
-KNOTS = Subject(
-    FILE,
-    "knot",
-    knot_domain,
-    knot_check,
-    modular=["knot", "reciprocal_word", "el_divide_words"],
-    contracts={**contracts.DIVISION, "el_divide_floor_i64": knot_quotient},
-)
-
-
-def piece_domain(machine: Machine) -> list[Any]:
-    """A walk at any place of any span, its limit as el_texture_walk_begin makes it.
-
-    Where W grows the walk begins with the length at which it goes on to look: had it begun with a shorter one, it would
-    have come to the same, and would know more.
-    """
-    path = machine.path
-    never, count = (machine.constant(machine.unit.constants[name]) for name in ("NEVER_Q8", "LENGTHS"))
-    limit, here = path.atom("limit", -never, never), path.atom("log2 W", 0, 32 * 256)
-    start = path.choose(path.atom("length", 0, count - 1))
-    falls = path.choose(path.atom("falls", 0, 1))
-    if not falls and start + 1 < count:
-        path.assume(limit + table("length_q8")[start + 1] - 1 - here)
-    HERE[id(path)] = here
-    walk = machine.struct("el_texture_walk", limit_q8=limit, length=start)
-    for name in ("w", "u", "v"):
-        machine.put(walk.content[name], path.atom(name, 0, 2**64 - 1))
-    for name in ("u_q16", "v_q16"):
-        machine.put(walk.content[name], path.atom(name, -KNOT, KNOT))
-    triangle = machine.struct("el_triangle")
-    perspective = triangle.content["perspective"].content
-    machine.put(perspective["w"].content["dx"], path.atom("dw", falls * 2**63, 2**63 - 1 + falls * 2**63))
-    # What is left of the span, by how it compares with the lengths.
-    ends = [1, 2, *(length + 2 for length in table("lengths")), 2041]
-    part = path.choose(path.atom("part", 0, len(ends) - 2))
-    if falls and start > 0 and table("lengths")[start - 1] >= ends[part + 1] - 2:
-        raise Infeasible  # skipped at once for the next shorter length, which is a path of its own
-    return [Pointer([walk]), Pointer([triangle]), machine.number("int32_t", "left", ends[part], ends[part + 1] - 1)]
-
-
-HERE: dict[int, Poly] = {}
-
-
-def piece_logarithm(machine: Machine, _: list[Any]) -> Number:
-    """log2_floor_q8: first of W here, then of W at any other place."""
-    here = HERE.pop(id(machine.path), None)
-    log = machine.path.atom("log", 0, 32 * 256) if here is None else here
-    return machine.exactly("int32_t", log)
-
-
-def exact_knots(machine: Machine, arguments: list[Any]) -> None:
-    for pointer in arguments[3:5]:
-        machine.put(pointer.cell, machine.path.atom("knot", -KNOT, KNOT))
-
-
-def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """1 <= length <= what is left of the span before its last pixel, and the longest piece."""
-    path = machine.path
-    left = arguments[2].poly
-    path.prove(result.poly - 1, "a piece has a pixel")
-    path.prove(machine.constant(machine.unit.constants["EL_MAX_PIECE"]) - result.poly, "not longer than EL_MAX_PIECE")
-    if path.decide(left - 2, 1 - left):
-        path.prove(left - 1 - result.poly, "the knot at its end is covered")
-
-
-PIECE = Subject(
-    FILE,
-    "el_texture_walk_piece",
-    piece_domain,
-    piece_check,
-    modular=["el_texture_walk_piece"],
-    contracts={
-        "exact": exact_knots,
-        "log2_floor_q8": piece_logarithm,
-        "whole": lambda machine, _: machine.number("uint32_t", "w", 1),
-    },
-    rough=True,
-)
-
-
-def begin_domain(machine: Machine) -> list[Any]:
-    path = machine.path
-    triangle = machine.struct("el_triangle")
-    perspective = triangle.content["perspective"].content
-    for name in "uv":
-        machine.put(perspective[f"{name}_shift"], path.atom(f"{name}_shift", 0, 27))
-    for name in "wuv":
-        machine.put(perspective[name].content["value"], path.atom("value", 0, 2**64 - 1))
-        machine.put(perspective[name].content["dx"], path.atom("dx", 0, 2**64 - 1))
-    surface = triangle.content["surface"].content
-    machine.put(surface["uv_error_log2"], path.choose(path.atom("uv_error_log2", 1, 5)))
-    walk = machine.struct("el_texture_walk")
-    return [Pointer([walk]), Pointer([triangle]), machine.number("int32_t", "skipped", 0, 4080)]
-
-
-def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, and the limit is in its range."""
-    path = machine.path
-    limit = machine.poly(arguments[0].cell, "limit_q8")
-    (never, reserve) = (machine.constant(machine.unit.constants[n]) for n in ("NEVER_Q8", "ROUNDING_RESERVE_Q8"))
-    path.prove(limit + never, "limit >= -NEVER")
-    path.prove(never - limit, "limit <= NEVER")
-    if "el_texture_walk_begin.curvature" not in machine.locals:
-        return
-    # J and W' with 4 bits of fraction each, the error in Q16 texels.
-    curvature, w_step = (machine.locals[f"el_texture_walk_begin.{name}"].poly for name in ("curvature", "w_step"))
-    error = machine.poly(arguments[1].cell, "surface", "uv_error_log2")
-    exact = curvature + w_step - 256 * (4 + 4 + 16) - 256 * 2 + 256 * error + reserve
-    path.prove(limit * 3 - exact, "the limit is rounded up")
+CURVATURE = Subject(FILE, "curvature_q8", curvature_domain, curvature_check, ["el_abs_u64"], LOGS)
 
 
 def curvature_contract(machine: Machine, _: list[Any]) -> Number:
-    """curvature_q8, proven above: a logarithm, and the shift of the coordinate."""
+    """curvature_q8: a logarithm, and the shift of the coordinate."""
     return machine.number("int32_t", "curvature", 0, 64 * 256 + 1 + 27 * 256)
 
 
@@ -384,26 +288,266 @@ def steep_check(machine: Machine, arguments: list[Any], result: Number) -> None:
 
 
 STEEPNESS = Subject(FILE, "is_steep", steep_domain, steep_check, modular=["el_abs_u64"])
-BEGIN = Subject(
+
+# --- the walk ---------------------------------------------------------------------------------------------------------
+
+
+def step_domain(machine: Machine) -> list[Any]:
+    """The difference of two knots, over each length."""
+    difference = machine.number("int32_t", "difference", -2 * MOST_KNOT, 2 * MOST_KNOT)
+    length = machine.path.choose(machine.path.atom("length", 2, 64))
+    LENGTHS[id(machine.path)] = length
+    return [difference, machine.call("reciprocal_of", machine.exactly("int32_t", length))]
+
+
+LENGTHS: dict[int, int] = {}
+
+
+def step_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    length = LENGTHS.pop(id(machine.path))
+    off = arguments[0].poly - result.poly * length
+    machine.path.prove(int(STEP_ERROR * 4) * length - off * 4, "not too low by more than 5/4")
+    machine.path.prove(int(STEP_ERROR * 4) * length + off * 4, "nor too high")
+
+
+def step(core: str = "") -> Subject:
+    return Subject(FILE, "el_multiply_high_i32_u32", step_domain, step_check, core=core)
+
+
+def piece_domain(machine: Machine) -> list[Any]:
+    """A walk at any place of any span, its limit as el_texture_walk_begin makes it.
+
+    Where W grows, the length that is found depends on W alone, wherever the search begins: here it begins with that
+    length, or with the longest. Where W falls, one that is not good enough, or too long for what is left of the span,
+    leaves the search where it would be had it begun with the next shorter one: that is a path of its own.
+    """
+    path = machine.path
+    never, count = (machine.constant(machine.unit.constants[name]) for name in ("NEVER_Q8", "LENGTHS"))
+    limit, here = path.atom("limit", -never, never), path.atom("log2 W", 0, 32 * 256)
+    start = path.choose(path.atom("length", 0, count - 1))
+    falls = path.choose(path.atom("falls", 0, 1))
+    # What is left of the span, by how it compares with the lengths.
+    lengths, logs = table("lengths"), table("length_q8")
+    ends = [1, 2, *(length + 2 for length in lengths), 2041]
+    part = path.choose(path.atom("part", 0, len(ends) - 2))
+    too_long = start > 0 and lengths[start - 1] >= ends[part + 1] - 2
+    if too_long and (falls or start + 1 < count):
+        raise Infeasible
+    if not falls and start + 1 < count:
+        path.assume(limit + logs[start + 1] - 1 - here)
+    if not falls and start > 0 and not too_long:
+        path.assume(here - limit - logs[start])
+    walk = machine.struct("el_texture_walk", limit_q8=limit, length=start, w_log2_q8=here)
+    for name in ("w", "u", "v"):
+        machine.put(walk.content[name], path.atom(name, 0, 2**64 - 1))
+    for name in ("next_u_q16", "next_v_q16"):
+        machine.put(walk.content[name], path.atom(name, -MOST_KNOT, MOST_KNOT))
+    planes = machine.struct("el_perspective")
+    machine.put(planes.content["w"].content["dx"], path.atom("dw", falls * 2**63, 2**63 - 1 + falls * 2**63))
+    walk.content["planes"].content = Pointer([planes])
+    left = machine.number("int32_t", "left", ends[part], ends[part + 1] - 1)
+    here_at = {name: machine.poly(walk, f"next_{name}_q16") for name in "uv"}
+    PIECES[id(path)] = Piece(here_at, left.poly, here if not falls else None)
+    return [Pointer([walk]), left]
+
+
+@dataclass
+class Piece:
+    """What is known of a piece, and what its proof comes to know."""
+
+    here: dict[str, Poly]  # u and v at its first pixel
+    left: Poly
+    least: Poly | None  # log2 of W where it is least on the piece
+    asked: Poly | None = None  # so many pixels from here, if W falls
+    gone: Poly | None = None
+    steps: list[tuple[Poly, Poly]] = field(default_factory=list)  # a difference of two knots, a step
+
+
+PIECES: dict[int, Piece] = {}
+
+
+def w_there(machine: Machine, arguments: list[Any]) -> Number:
+    """el_multiply_u16 of W's gradient, which is added to W: at a covered pixel, 1 <= W < 2^31 comes of it."""
+    piece, pixels = PIECES[id(machine.path)], arguments[1].poly
+    machine.path.prove(pixels - 1, "further on")
+    machine.path.prove(piece.left - 1 - pixels, "at a covered pixel")
+    walk = machine.scopes[0]["walk"].content.cell
+    piece.asked = pixels
+    there, turns = machine.path.atom("W there", WORD, 2**63 - 1), machine.path.atom("turns", 0, 1)
+    return machine.exactly("uint64_t", there - machine.poly(walk, "w") + turns * 2**64)
+
+
+def log_there(machine: Machine, arguments: list[Any]) -> Number:
+    log: Number = LOGS["log2_floor_q8"](machine, arguments)
+    piece = PIECES[id(machine.path)]
+    if piece.least is not None:
+        raise Infeasible  # where W falls, what was found for a longer piece says nothing of a shorter one
+    piece.least = log.poly
+    return log
+
+
+def gone_on(machine: Machine, arguments: list[Any]) -> None:
+    PIECES[id(machine.path)].gone = arguments[1].poly
+
+
+def next_knots(machine: Machine, arguments: list[Any]) -> None:
+    """find_knot: both, and the logarithm of W there."""
+    walk = arguments[0].cell
+    for name in "uv":
+        machine.put(walk.content[f"next_{name}_q16"], machine.path.atom("knot", -MOST_KNOT, MOST_KNOT))
+    machine.put(walk.content["w_log2_q8"], machine.path.atom("log2 W", 0, 32 * 256))
+
+
+def reciprocal_of(machine: Machine, arguments: list[Any]) -> Number:
+    """Of the piece's length; what it is for is proven of each length."""
+    length = PIECES[id(machine.path)].gone
+    require(length is not None and (arguments[0].poly - length).constant == 0, "of the piece's length")
+    machine.path.prove(arguments[0].poly - 2, "a length of 2 and more")
+    return machine.number("uint32_t", "reciprocal", 1 << 26, 1 << 31)
+
+
+def step_contract(machine: Machine, arguments: list[Any]) -> Number:
+    """el_multiply_high_i32_u32, of a difference and the reciprocal of the length."""
+    found = machine.number("int32_t", "step", -2 * MOST_KNOT, 2 * MOST_KNOT)
+    PIECES[id(machine.path)].steps.append((arguments[0].poly, found.poly))
+    return found
+
+
+def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """1 <= length <= what is left of the span before its last pixel, and the longest piece.
+
+    W is enough for more than one pixel; the walk goes on by it, and the steps are over the difference of its knots.
+    """
+    path = machine.path
+    walk, left = arguments[0].cell, arguments[1].poly
+    piece = PIECES.pop(id(path))
+    path.prove(result.poly - 1, "a piece has a pixel")
+    path.prove(machine.constant(machine.unit.constants["EL_MAX_PIECE"]) - result.poly, "not longer than EL_MAX_PIECE")
+    for name, here in piece.here.items():
+        require((machine.poly(walk, f"{name}_q16") - here).constant == 0, f"{name} is what the last knot was")
+    if not path.decide(left - 2, 1 - left):
+        return
+    path.prove(left - 1 - result.poly, "the knot at its end is covered")
+    require(piece.gone is not None and (piece.gone - result.poly).constant == 0, "the planes are at its end")
+    if path.decide(result.poly - 2, 1 - result.poly):
+        i = machine.poly(walk, "length").known
+        path.prove(table("lengths")[i] - result.poly, "no longer than the length that was tried")
+        assert piece.least is not None
+        if piece.asked is not None:
+            path.prove(piece.asked - result.poly, "W at its end was asked for", zero=True)
+        path.prove(piece.least - machine.poly(walk, "limit_q8") - table("length_q8")[i], "W is enough for it")
+        steps = piece.steps
+    else:
+        steps = [(machine.poly(walk, f"{name}_step_q16"),) * 2 for name in "uv"]
+    for name, (difference, per_pixel) in zip("uv", steps, strict=True):
+        exact = machine.poly(walk, f"next_{name}_q16") - piece.here[name]
+        require((difference - exact).constant == 0, f"the difference of {name}")
+        require((machine.poly(walk, f"{name}_step_q16") - per_pixel).constant == 0, f"the step of {name}")
+
+
+PIECE = Subject(
     FILE,
-    "el_texture_walk_begin",
-    begin_domain,
-    begin_check,
-    modular=["el_texture_walk_begin", "el_abs_u64", "el_plane_times", "el_multiply_u64"],
+    "el_texture_walk_piece",
+    piece_domain,
+    piece_check,
+    modular=["el_texture_walk_piece", "piece_length"],
     contracts={
-        "exact": lambda machine, arguments: exact_knots(machine, [None, *arguments[1:]]),
-        "curvature_q8": curvature_contract,
-        "is_steep": steep_contract,
-        # At covered pixels 1/w is below 2^31 (test_planes_are_exact_modulo_2_64: between the corners').
-        "whole": lambda machine, _: machine.number("uint32_t", "w", 1, 2**31 - 1),
-        **LOGS,
+        "go_on": gone_on,
+        "find_knot": next_knots,
+        "log2_floor_q8": log_there,
+        "el_multiply_u16": w_there,
+        "reciprocal_of": reciprocal_of,
+        "el_multiply_high_i32_u32": step_contract,
     },
+    rough=True,
+)
+
+
+def covered(machine: Machine) -> tuple[Poly, Poly]:
+    """W and U as their planes have them at a covered pixel, in units of 2^-32."""
+    path = machine.path
+    w = path.atom("W", WORD - PLANE_ERROR, (2**31 - 1) * WORD + PLANE_ERROR)
+    u = path.atom("U", -(2**63), 2**63 - 1)
+    path.assume(w + 2 * PLANE_ERROR - u)
+    path.assume(w + 2 * PLANE_ERROR + u)
+    return w, u
+
+
+def begin_domain(machine: Machine) -> list[Any]:
+    """A row's first pixel, from which W and U are as at a covered pixel after those that are skipped, if any."""
+    path = machine.path
+    triangle = machine.struct("el_triangle")
+    perspective = triangle.content["perspective"].content
+    for name in "uv":
+        machine.put(perspective[f"{name}_shift"], path.atom(f"{name}_shift", 0, 27))
+    w, u = covered(machine)
+    there = {"w": w, "u": u if path.decide(u, -u - 1) else u + 2**64, "v": path.atom("V", 0, 2**64 - 1)}
+    skips = path.choose(path.atom("skips", 0, 1))
+    for name, value in there.items():
+        machine.put(perspective[name].content["value"], path.atom("value", 0, 2**64 - 1) if skips else value)
+        machine.put(perspective[name].content["dx"], path.atom("dx", 0, 2**64 - 1))
+    surface = triangle.content["surface"].content
+    machine.put(surface["uv_error_log2"], path.choose(path.atom("uv_error_log2", 1, 5)))
+    walk = machine.struct("el_texture_walk")
+
+    def skip(of: Machine, arguments: list[Any]) -> None:
+        """go_on: to there, with whatever was added to W before."""
+        require((arguments[1].poly - skipped.poly).constant == 0, "by the pixels that are skipped")
+        u64 = of.type_named("uint64_t")
+        for name, value in there.items():
+            added = of.poly(walk, name) - of.poly(perspective[name], "value")
+            walk.content[name].content = Number(u64, of.reduce(value + added, u64))
+
+    def knots(of: Machine, arguments: list[Any]) -> None:
+        """find_knot: 1 <= W < 2^31 and |U| <= W, as it is proven for."""
+        here = of.poly(walk, "w")
+        path.prove(here - WORD, "W >= 1")
+        path.prove(2**63 - 1 - here, "W < 2^31")
+        path.prove(here - u, "U <= W")
+        path.prove(here + u, "-W <= U")
+        next_knots(of, arguments)
+
+    def log_of_step(of: Machine, arguments: list[Any]) -> Number:
+        """log2_ceil_q8: of no less than 16 |W'|."""
+        dw = of.poly(perspective["w"], "dx")
+        signed = dw if path.holds(STEEP - 1 - dw) else dw - 2**64
+        for magnitude in (signed, -signed):
+            path.prove(arguments[0].poly * 2**28 - magnitude, "no less than 16 |W'|")
+        log: Number = LOGS["log2_ceil_q8"](of, arguments)
+        return log
+
+    machine.contracts = {**BEGIN_CONTRACTS, "go_on": skip, "find_knot": knots, "log2_ceil_q8": log_of_step}
+    skipped = machine.number("int32_t", "skipped", skips, 4080 * skips)
+    return [Pointer([walk]), Pointer([triangle]), skipped]
+
+
+def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, and the limit is in its range."""
+    path = machine.path
+    limit = machine.poly(arguments[0].cell, "limit_q8")
+    (never, reserve) = (machine.constant(machine.unit.constants[n]) for n in ("NEVER_Q8", "ROUNDING_RESERVE_Q8"))
+    path.prove(limit + never, "limit >= -NEVER")
+    path.prove(never - limit, "limit <= NEVER")
+    if "el_texture_walk_begin.curvature" not in machine.locals:
+        return
+    # J and W' with 4 bits of fraction each, the error in Q16 texels.
+    curvature, w_step = (machine.locals[f"el_texture_walk_begin.{name}"].poly for name in ("curvature", "w_step"))
+    error = machine.poly(arguments[1].cell, "surface", "uv_error_log2")
+    exact = curvature + w_step - 256 * (4 + 4 + 16) - 256 * 2 + 256 * error + reserve
+    path.prove(limit * 3 - exact, "the limit is rounded up")
+    path.prove(exact + 2 - limit * 3, "and no more than that")
+
+
+BEGIN_CONTRACTS = {"curvature_q8": curvature_contract, "is_steep": steep_contract}
+BEGIN = Subject(
+    FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin", "el_abs_u64"]
 )
 SUBJECTS = {
     "curvature": CURVATURE,
-    "knot": KNOTS,
-    "piece": PIECE,
     "steep": STEEPNESS,
+    "step": step(),
+    "step, small code": step(SMALL_CODE),
+    "piece": PIECE,
     "begin": BEGIN,
 }
 
@@ -413,42 +557,30 @@ def test_all_values(name: str) -> None:
     SUBJECTS[name].prove()
 
 
-@EVERY_PRECISION
-def test_the_quotient_of_a_knot(bits: int) -> None:
-    """|U| 2^shift / W stays below 2^28 at covered pixels, in Q16 texels.
-
-    The corners' u are within 2^shift - 1 of the base; U at a corner is rounded to 2^-F, F = EL_PLANE_FRACTION_BITS, and
-    the planes of U and W are off by less than 2^-19. W >= 1. So |U| <= (2^shift - 1) W / 2^shift + 2^-F / 2 + 2^-19,
-    and what the walk has for W is above W - 2^-19.
-    """
-    (fraction,) = constants_of("raster/plane.c", bits, "EL_PLANE_FRACTION_BITS")
-    unit = 2**19
-    for shift in range(fraction, 28):
-        for w in (1, 2, 2**31 - 1):
-            numerator = (2**shift - 1) * w * unit + 2**shift * (unit >> fraction + 1) + 2**shift
-            assert numerator <= 2**28 * (w * unit - 1), f"shift {shift}, W {w}"
-
-
-def constants_of(file: str, bits: int, *names: str) -> list[int]:
-    machine = AnyMachine(parse(file, bits), Path([]))
-    return [machine.constant(machine.unit.constants[name]) for name in names]
-
-
-@pytest.mark.parametrize("name", ["curvature", "knot", "steep"])
+@pytest.mark.parametrize("name", ["curvature", "steep", "step"])
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
     Subject(FILE, subject.function, subject.domain, modular=subject.modular).agree(count=200)
 
 
 @pytest.mark.parametrize(
-    ("name", "old", "new"),
+    ("name", "file", "old", "new"),
     [
-        ("curvature", "plane->dx >> 28", "plane->dx >> 27"),
-        ("knot", "int total = shift + w_shift - 32", "int total = shift + w_shift - 28"),
-        ("piece", "most = left - 1;", "most = left;"),
-        ("steep", "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
-        ("begin", "3 * NEVER_Q8 + 2) / 3", "3 * NEVER_Q8 + 1) / 3"),
+        ("curvature", FILE, "plane->dx >> 28", "plane->dx >> 27"),
+        ("curvature", FILE, "= el_abs_u64(step_q4) + el_abs_u64(w_step_q4)", "= el_abs_u64(step_q4)"),
+        ("curvature", FILE, "2U * ((uint64_t)(uint32_t)w + 1U)", "((uint64_t)(uint32_t)w + 1U)"),
+        ("steep", FILE, "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
+        ("step", FILE, "477218589U", "477218689U"),
+        ("step, small code", FILE, "(uint32_t)length + 1U", "((uint32_t)length + 1U)"),
+        ("piece", FILE, "piece_length(walk, left - 1)", "piece_length(walk, left)"),
+        ("piece", FILE, "(least) >= walk->limit_q8 + length_q8[i])", "(least) >= walk->limit_q8)"),
+        ("piece", FILE, "i >= 0 && room_q8 < length_q8[i]", "i >= 0 && room_q8 < 0"),
+        ("piece", FILE, "walk->next_v_q16 - walk->v_q16", "walk->next_v_q16 - walk->u_q16"),
+        ("begin", FILE, "el_abs_u64(w_step_q4) + 1U", "el_abs_u64(w_step_q4)"),
+        ("begin", FILE, "+ EL_W_MARGIN_Q32", ""),
+        ("begin", FILE, "* 4096 + 2)", "* 4096 + 1)"),
+        ("begin", "raster/texture_walk.h", "(1U << 14)", "(1U << 13)"),
     ],
 )
-def test_the_proof_can_fail(name: str, old: str, new: str) -> None:
-    SUBJECTS[name].fails_with(Fault(FILE, old, new))
+def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:
+    SUBJECTS[name].fails_with(Fault(file, old, new))

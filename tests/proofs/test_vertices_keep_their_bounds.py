@@ -11,6 +11,7 @@ product in mix() is below (2^32 - 1) 2^31 + 2^30 < 2^63.
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import pytest
@@ -31,22 +32,41 @@ def constant_of(machine: Machine, name: str) -> int:
 
 
 def form_domain(machine: Machine) -> list[Any]:
-    """|offset| < 2^62, rows of 32 bits, positions of 16, a shift of 1..31, and the sum within 32 bits after it."""
+    """|offset| < 2^62, rows as el_dot_i32_i16 has them, positions of 16 bits, a shift of 1..31.
+
+    The sum is within 32 bits after it.
+    """
     path = machine.path
     rows = [path.atom(f"row{i}", *I32) for i in range(3)]
+    for signs in itertools.product((1, -1), repeat=3):
+        path.assume(constant_of(machine, "EL_DOT_MOST") - contracts.weighted(signs, rows))
     offset = path.atom("offset", -(2**62) + 1, 2**62 - 1)
     shift = path.choose(path.atom("shift", 1, 31))
     position = [path.atom(f"p{i}", -(2**15), 2**15 - 1) for i in range(3)]
-    total = sum((row * p for row, p in zip(rows, position, strict=True)), offset)
+    total = contracts.weighted(rows, position) + offset
     path.assume(total + 2 ** (31 + shift))
     path.assume(2 ** (31 + shift) - 1 - total)
+    TOTALS[id(path)] = total
     transform = machine.struct("el_transform", shift=shift)
     machine.put(transform.content["rows"].content[0], rows)
     machine.put(transform.content["offsets"].content[0], offset)
     return [Pointer([transform]), machine.exactly("uint32_t", 0), machine.array("int16_t", position)]
 
 
-FORM = Subject(TRANSFORM, "form_value", form_domain)
+TOTALS: dict[int, Poly] = {}
+
+
+def form_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """floor(sum / 2^shift)."""
+    unit = 1 << machine.poly(arguments[0].cell, "shift").known
+    rest = TOTALS.pop(id(machine.path)) - result.poly * unit
+    machine.path.prove(rest, "not above the sum")
+    machine.path.prove(unit - 1 - rest, "not below it")
+
+
+FORM = Subject(
+    TRANSFORM, "form_value", form_domain, form_check, ["form_value"], contracts={"el_dot_i32_i16": contracts.dot}
+)
 
 # --- where it lies ----------------------------------------------------------------------------------------------------
 
@@ -149,7 +169,7 @@ SNAP = Subject(
     "snap",
     snap_domain,
     snap_check,
-    modular=["reciprocal_word", "el_divide_words"],
+    modular=["el_reciprocal_word", "el_divide_words"],
     contracts=contracts.DIVISION,
 )
 
@@ -438,7 +458,8 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("form_value", TRANSFORM, "(int32_t)(sum >> transform->shift)", "(int32_t)((sum + 1) >> transform->shift)"),
+        ("form_value", TRANSFORM, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
+        ("form_value", TRANSFORM, "(32 - transform->shift)", "(31 - transform->shift)"),
         ("outcode", TRANSFORM, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),
         ("snap", TRANSFORM, "c * half + (w >> 1)", "c * half + (w >> 1) + 1"),
         ("project, perspective", TRANSFORM, "rest > 0x7FFFU ? 0x7FFFU", "rest > 0x8000U ? 0x8000U"),

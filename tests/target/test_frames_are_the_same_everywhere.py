@@ -116,7 +116,7 @@ def test_a_wrong_constant_is_found() -> None:
     """Colours that are rounded by 1/256 of a level less, on one core."""
     configuration = _target("cortex-m3", ("O2",), FIRST_FRAMES)
     source = seeded_copy(
-        "frames-faulty", "firmware/src/raster/plane.h", "EL_CHANNEL_HALF (1U << 23)", "EL_CHANNEL_HALF (1U << 22)"
+        "frames-faulty", "firmware/src/raster/plane.h", "EL_CHANNEL_HALF (1U << 23)", "EL_CHANNEL_HALF (0x7FU << 16)"
     )
     folder = configuration.build(source, "faulty-")
     assert drawn(folder / "frames-O2", configuration.core) != golden(configuration.step)

@@ -1,5 +1,6 @@
 /* Division by a reciprocal is exact: against `/` and 128-bit arithmetic, for divisors of every size. */
-#include "base/divide.h"
+#define EL_DIVIDE_BY_TABLE /* as on cores without a divider; all other tests divide */
+#include "base/reciprocals.c"
 
 #include <stdbool.h>
 
@@ -24,6 +25,10 @@ static void expect_reciprocal(const seeded *s, uint32_t d)
         fail_at(s, "%lu normalised is %lu << %d", (unsigned long)d, (unsigned long)divisor.normalised, divisor.shift);
     }
     const uint64_t expected = UINT64_MAX / divisor.normalised - (1ULL << 32);
+    const uint64_t short_by = (1ULL << 63) / divisor.normalised - el_reciprocal_near(divisor.normalised);
+    if (short_by >= EL_RECIPROCAL_ERROR) {
+        fail_at(s, "2^63 / %lu is short by %llu", (unsigned long)divisor.normalised, (unsigned long long)short_by);
+    }
     if (divisor.reciprocal != expected) {
         fail_at(s, "reciprocal of %lu is %llu, not %lu", (unsigned long)divisor.normalised,
                 (unsigned long long)expected, (unsigned long)divisor.reciprocal);
@@ -169,6 +174,19 @@ static void test_divisors_beside_the_steps_of_the_first_guess(void)
     }
 }
 
+static void test_tables(void)
+{
+    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
+        TEST_ASSERT_EQUAL_HEX32(UINT32_MAX / d, el_reciprocal_of_short(d));
+    }
+    for (uint32_t d = 512; d < 1024; d++) {
+        TEST_ASSERT_EQUAL_HEX32(((1U << 24) - (1U << 14) + (1U << 9)) / d, el_first_guess(d));
+    }
+    for (uint32_t upper = (1U << 15) + 1U; upper <= 1U << 16; upper++) {
+        TEST_ASSERT_EQUAL_HEX32((1U << 31) / upper, el_reciprocal_u16(upper));
+    }
+}
+
 static void test_reciprocals_seeded(void)
 {
     for (seeded s = seeded_from(5); s.round < ROUNDS; s.round++) {
@@ -221,6 +239,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_small_divisors_and_powers_of_two);
     RUN_TEST(test_divisors_beside_the_steps_of_the_first_guess);
+    RUN_TEST(test_tables);
     RUN_TEST(test_reciprocals_seeded);
     RUN_TEST(test_quotients_seeded);
     RUN_TEST(test_wide_divisors_seeded);

@@ -1,4 +1,5 @@
 /* Integer arithmetic against 128-bit arithmetic, at the ends of every range and in seeded loops. */
+#define EL_PRODUCTS_IN_HALVES /* as on cores without long products; all other tests have these */
 #include "base/fixed.h"
 
 #include "seeded.h"
@@ -79,15 +80,25 @@ static void expect_products(const seeded *s, uint64_t a, int32_t b)
     const uint32_t low = (uint32_t)a;
     const uint32_t other = (uint32_t)(a >> 32);
     const int32_t factor = b % 65536;
-    const int16_t half = (int16_t)(b % 32769 == 32768 ? -32768 : b % 32769);
+    const uint32_t positive = (uint32_t)b & 0xFFFFU;
     if (el_multiply_u64(a, factor) != a * (uint64_t)(int64_t)factor) {
         fail_at(s, "%llu * %ld", (unsigned long long)a, (long)factor);
     }
     if (el_product_u64(low, other) != (uint64_t)low * other) {
         fail_at(s, "%lu * %lu", (unsigned long)low, (unsigned long)other);
     }
-    if (el_product_i32_i16((int32_t)low, half) != (int64_t)(int32_t)low * half) {
-        fail_at(s, "%ld * %d", (long)(int32_t)low, half);
+    if (el_product_high_u32(low, other) != (uint32_t)((uint64_t)low * other >> 32)) {
+        fail_at(s, "%lu * %lu / 2^32", (unsigned long)low, (unsigned long)other);
+    }
+    if (el_multiply_u16(a, positive) != a * positive || el_product_u32_u16(low, positive) != (uint64_t)low * positive) {
+        fail_at(s, "%llu * %lu", (unsigned long long)a, (unsigned long)positive);
+    }
+    const int64_t product = (int64_t)(int32_t)low * (int32_t)other;
+    if (el_product_i32((int32_t)low, (int32_t)other) != product) {
+        fail_at(s, "%ld * %ld", (long)(int32_t)low, (long)(int32_t)other);
+    }
+    if (el_multiply_high_i32_u32((int32_t)low, other) != (int32_t)((int64_t)(int32_t)low * other >> 32)) {
+        fail_at(s, "%ld * %lu / 2^32", (long)(int32_t)low, (unsigned long)other);
     }
 }
 
@@ -105,6 +116,40 @@ static void test_products(void)
     }
     for (; s.round < PART_OF(200000); s.round++) {
         expect_products(&s, any_of_bits(&s, 64), (int32_t)any_signed_of_bits(&s, 31));
+    }
+}
+
+static void expect_dot(const seeded *s, const int32_t a[3], const int16_t b[3])
+{
+    if (el_dot_i32_i16(a, b) != (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) {
+        fail_at(s, "(%ld, %ld, %ld) . (%d, %d, %d)", (long)a[0], (long)a[1], (long)a[2], b[0], b[1], b[2]);
+    }
+}
+
+static void test_sums_of_three_products(void)
+{
+    enum { END = (1 << 29) - 1 };
+    static const int32_t ends[] = {-END, -(1 << 14) - 1, -(1 << 14), 0, (1 << 14) - 1, 1 << 14, END};
+    static const int16_t factors[] = {-32768, -1, 0, 1, 32767};
+    seeded s = seeded_from(11);
+    for (unsigned i = 0; i < 7 * 7 * 5 * 5; i++) {
+        expect_dot(&s, (const int32_t[3]){ends[i % 7], ends[i / 7 % 7], ends[i % 7]},
+                   (const int16_t[3]){factors[i / 49 % 5], factors[i / 245], factors[i / 49 % 5]});
+    }
+    for (unsigned i = 0; i < 3 * 8; i++) { /* each sum at its end, in one element and in three */
+        const int32_t most = i < 8 ? EL_DOT_MOST : EL_DOT_MOST / 3;
+        const int32_t a[3] = {(i & 1U) != 0 ? most : -most, i < 8 ? 0 : most, i < 8 ? 0 : -most};
+        const int16_t side = (i & 2U) != 0 ? -32768 : 32767;
+        expect_dot(&s, a, (const int16_t[3]){side, (i & 4U) != 0 ? side : -32767, i < 16 ? side : 32767});
+    }
+    for (; s.round < PART_OF(100000); s.round++) {
+        int32_t a[3];
+        int16_t b[3];
+        for (unsigned i = 0; i < 3; i++) {
+            a[i] = (int32_t)any_signed_of_bits(&s, 29);
+            b[i] = (int16_t)any_signed_of_bits(&s, 15);
+        }
+        expect_dot(&s, a, b);
     }
 }
 
@@ -240,6 +285,7 @@ int main(void)
     RUN_TEST(test_bit_lengths);
     RUN_TEST(test_magnitudes_and_the_smaller_and_larger);
     RUN_TEST(test_products);
+    RUN_TEST(test_sums_of_three_products);
     RUN_TEST(test_square_roots);
     RUN_TEST(test_scale_at_the_edges);
     RUN_TEST(test_scale_ties_go_up);

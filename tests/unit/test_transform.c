@@ -369,9 +369,48 @@ static void test_coarse_units_are_fine_for_small_meshes(void)
     }
 }
 
+/* However small its sphere and however far from it its origin, a mesh's rows are what el_dot_i32_i16 asks for. */
+static void test_rows_of_the_smallest_meshes(void)
+{
+    el_camera camera = plain_camera();
+    camera.near_q16 = 16;
+    for (seeded s = seeded_from(70); s.round < PART_OF(20000); s.round++) {
+        const el_mesh small = {.positions = corner_points,
+                               .vertex_count = 1,
+                               .scale_log2 = -1,
+                               .centre = {32000, 32000, 32000},
+                               .radius = (uint16_t)(s.round % 4)};
+        el_pose pose = el_pose_identity();
+        pose.scale_q16 = (uint32_t)any_between(&s, EL_UNIT_Q16 / 4, EL_UNIT_Q16);
+        for (unsigned i = 0; i < 3; i++) {
+            pose.position_q16[i] = -16000 * (int32_t)pose.scale_q16;
+        }
+        /* It looks along the space's diagonal, to which a row's three elements are alike. */
+        static const int32_t axes_q30[3][3] = {
+            {759250125, -759250125, 0}, {438353264, 438353264, -876706528}, {619925131, 619925131, 619925131}};
+        memcpy(camera.axes_q30, axes_q30, sizeof axes_q30);
+        for (unsigned i = 0; i < 3; i++) {
+            camera.position_q16[i] = (int32_t)any_below(&s, EL_UNIT_Q16 / 2);
+        }
+        camera.fov_y = (el_angle)any_between(&s, EL_DEGREES(1, 1), EL_DEGREES(179, 1));
+        TEST_ASSERT_EQUAL_INT(EL_OK, el_view_make(&view, &camera, WIDTH, HEIGHT));
+        if (el_transform_make(&transform, &view, &small, &pose) != EL_VISIBLE) {
+            continue;
+        }
+        for (unsigned i = 0; i < 3; i++) {
+            const uint64_t sum =
+                el_abs_u64(transform.rows[i][0]) + el_abs_u64(transform.rows[i][1]) + el_abs_u64(transform.rows[i][2]);
+            if (sum > EL_DOT_MOST) {
+                fail_at(&s, "row %u adds up to %llu", i, (unsigned long long)sum);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_rows_of_the_smallest_meshes);
     RUN_TEST(test_x_is_right_and_y_is_up);
     RUN_TEST(test_outcodes_at_the_sides);
     RUN_TEST(test_outcodes_at_the_guard_band);

@@ -20,6 +20,29 @@ static void set_clip(el_transform *transform, int64_t x, int64_t y, int64_t d)
     transform->shift = 1;
 }
 
+/* One vertex and a series of them: what is in the view is `vertex`, the rest is left for later. */
+static void expect_in_view(const el_transform *transform, const int16_t position[3], const el_screen_vertex *vertex)
+{
+#if EL_SMALL_CODE
+    (void)transform, (void)position, (void)vertex; /* has neither */
+#else
+    const int16_t positions[2][3] = {{position[0], position[1], position[2]}, {position[0], position[1], position[2]}};
+    el_screen_vertex found[3] = {0};
+    el_transform_vertex_in_view(transform, position, &found[0]);
+    el_transform_vertices(transform, positions, 2, &found[1]);
+    for (unsigned i = 0; i < 3; i++) {
+        TEST_ASSERT_EQUAL(vertex->code == 0 ? 0 : (vertex->code & EL_CODE_OUTSIDE) | EL_CODE_LATER, found[i].code);
+        if (vertex->code == 0) {
+            TEST_ASSERT_EQUAL(vertex->x, found[i].x);
+            TEST_ASSERT_EQUAL(vertex->y, found[i].y);
+            TEST_ASSERT_EQUAL(vertex->z, found[i].z);
+            TEST_ASSERT_EQUAL(vertex->w, found[i].w);
+            TEST_ASSERT_EQUAL(vertex->w_shift, found[i].w_shift);
+        }
+    }
+#endif
+}
+
 static void expect_same(const seeded *s, const el_transform *transform, const int16_t position[3])
 {
     const el_clip_vertex clip = el_transform_position(transform, position);
@@ -32,6 +55,7 @@ static void expect_same(const seeded *s, const el_transform *transform, const in
         same = same && got.x == expected.x && got.y == expected.y && got.z == expected.z && got.w == expected.w &&
                got.w_shift == expected.w_shift;
     }
+    expect_in_view(transform, position, &got);
     if (!same) {
         fail_at(s, "x %ld, y %ld, d %ld, w %ld: (%ld, %ld), depth %u and code %u, not (%ld, %ld), %u and %u",
                 (long)clip.x, (long)clip.y, (long)clip.d, (long)clip.w, (long)got.x, (long)got.y, got.z, got.code,

@@ -5,36 +5,13 @@
 #include "base/fixed.h"
 
 /* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
+EL_INLINE_HERE uint32_t el_first_guess(uint32_t d10);
+EL_INLINE_HERE uint32_t el_reciprocal_word(uint32_t d);
+EL_INLINE_HERE el_divisor el_divisor_make(uint32_t d);
 EL_INLINE_HERE uint32_t el_divide_words(uint32_t high, uint32_t low, const el_divisor *divisor, uint32_t *remainder);
 EL_INLINE_HERE uint32_t el_divide_u64(uint64_t n, const el_divisor *divisor);
 EL_INLINE_HERE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor);
 /* NOLINTEND(readability-redundant-declaration) */
-
-/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
- * one, a short routine elsewhere. */
-static uint32_t reciprocal_word(uint32_t d)
-{
-    const uint32_t d10 = d >> 22;        /* 512..1023 */
-    const uint32_t d21 = (d >> 11) + 1U; /* 2^20 < d21 <= 2^21 */
-    const uint32_t d31 = (d >> 1) + (d & 1U);
-    const uint32_t v0 = ((1U << 24) - (1U << 14) + (1U << 9)) / d10;                     /* below 2^15 */
-    const uint32_t v1 = (v0 << 4) - (uint32_t)(el_product_u64(v0 * v0, d21) >> 32) - 1U; /* v0^2 < 2^30 */
-    const uint32_t e = ((d & 1U) != 0 ? v1 >> 1 : 0U) - v1 * d31;
-    const uint32_t v2 = (v1 << 15) + (uint32_t)(el_product_u64(v1, e) >> 33);
-    /* (v2 + 2^32 + 1) * d / 2^32, modulo 2^32 */
-    const uint32_t high = (uint32_t)((el_product_u64(v2, d) + d) >> 32);
-    return v2 - (high + d);
-}
-
-el_divisor el_divisor_make(uint32_t d)
-{
-    el_divisor divisor;
-    divisor.shift = (uint8_t)(32 - el_bit_length_u32(d));
-    /* NOLINTNEXTLINE(clang-analyzer-core.*): d >= 1, so the shift is 31 at most. */
-    divisor.normalised = d << divisor.shift;
-    divisor.reciprocal = reciprocal_word(divisor.normalised);
-    return divisor;
-}
 
 /* Sign and magnitude of n + fraction * 2^-32. */
 typedef struct magnitude {

@@ -10,6 +10,11 @@
 #include "base/machine.h"
 #include "base/options.h"
 
+/* A core without a 32 x 32 -> 64 bit product (Armv6-M) has products of 32 bits instead, where they need not be short. */
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
+#define EL_PRODUCTS_IN_HALVES
+#endif
+
 /* Bits of x: 0 for 0, 32 for x >= 2^31. */
 static inline int el_bit_length_u32(uint32_t x)
 {
@@ -36,16 +41,24 @@ static inline int32_t el_max_i32(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-/* a * b modulo 2^64, |b| < 2^16. A core without a 32 x 32 -> 64 bit product (Armv6-M) has three of 32 bits instead,
- * where they need not be short. */
+/* a * b modulo 2^64, b < 2^16. */
+static inline uint64_t el_multiply_u16(uint64_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    const uint32_t low = (uint32_t)a;
+    const uint32_t middle = (low >> 16) * b;
+    const uint32_t high = (uint32_t)(a >> 32) * b + (middle >> 16);
+    return ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * b;
+#else
+    return a * b;
+#endif
+}
+
+/* a * b modulo 2^64, |b| < 2^16. */
 EL_INLINE uint64_t el_multiply_u64(uint64_t a, int32_t b)
 {
-#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
-    const uint32_t factor = (uint32_t)(b < 0 ? -b : b);
-    const uint32_t low = (uint32_t)a;
-    const uint32_t middle = (low >> 16) * factor;
-    const uint32_t high = (uint32_t)(a >> 32) * factor + (middle >> 16);
-    const uint64_t product = ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * factor;
+#if defined(EL_PRODUCTS_IN_HALVES)
+    const uint64_t product = el_multiply_u16(a, (uint32_t)(b < 0 ? -b : b));
     return b < 0 ? 0 - product : product;
 #else
     return a * (uint64_t)(int64_t)b;
@@ -55,7 +68,7 @@ EL_INLINE uint64_t el_multiply_u64(uint64_t a, int32_t b)
 /* a * b. */
 EL_INLINE uint64_t el_product_u64(uint32_t a, uint32_t b)
 {
-#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
+#if defined(EL_PRODUCTS_IN_HALVES)
     const uint32_t a_high = a >> 16;
     const uint32_t a_low = a & 0xFFFFU;
     const uint32_t b_high = b >> 16;
@@ -71,14 +84,71 @@ EL_INLINE uint64_t el_product_u64(uint32_t a, uint32_t b)
 }
 
 /* a * b. */
-static inline int64_t el_product_i32_i16(int32_t a, int16_t b)
+static inline int64_t el_product_i32(int32_t a, int32_t b)
 {
-#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
-    const int32_t high = (a >> 16) * b;
-    const int32_t low = (a & 0xFFFF) * b; /* below 2^16 * 2^15 */
-    return (int64_t)high * 65536 + low;
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* Modulo 2^32 a negative number is 2^32 more. */
+    const uint32_t excess = (a < 0 ? (uint32_t)b : 0U) + (b < 0 ? (uint32_t)a : 0U);
+    return (int64_t)(el_product_u64((uint32_t)a, (uint32_t)b) - ((uint64_t)excess << 32));
 #else
     return (int64_t)a * b;
+#endif
+}
+
+/* floor(a * b / 2^32). */
+static inline uint32_t el_product_high_u32(uint32_t a, uint32_t b)
+{
+    return (uint32_t)(el_product_u64(a, b) >> 32);
+}
+
+/* a * b, b < 2^16. */
+static inline uint64_t el_product_u32_u16(uint32_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    const uint32_t low = (a & 0xFFFFU) * b;
+    const uint32_t high = (a >> 16) * b + (low >> 16);
+    return (uint64_t)(high >> 16) << 32 | high << 16 | (low & 0xFFFFU);
+#else
+    return (uint64_t)a * b;
+#endif
+}
+
+/* floor(a * b / 2^32). */
+static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* a modulo 2^32 is a + 2^32 for a < 0. */
+    return (int32_t)((uint32_t)(el_product_u64((uint32_t)a, b) >> 32) - (a < 0 ? b : 0U));
+#else
+    return (int32_t)(((int64_t)a * b) >> 32);
+#endif
+}
+
+#if defined(EL_PRODUCTS_IN_HALVES)
+static inline void el_add_halves(int32_t a, int32_t b, uint32_t *high, uint32_t *low)
+{
+    const int32_t rest = (int32_t)((uint32_t)a << 17) >> 17;
+    *high += (uint32_t)((a - rest) >> 15) * (uint32_t)b;
+    *low += (uint32_t)rest * (uint32_t)b;
+}
+#endif
+
+/* The sum of three products a[i] * b[i]. Pre: |a[0]| + |a[1]| + |a[2]| <= EL_DOT_MOST. */
+enum { EL_DOT_MOST = 0x7FFF0000 };
+static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* a = 2^15 high + low, |low| at most 2^14, and |high| 2^15 at most |a| + 2^14: the sum of the low products is at most
+     * 3 * 2^29, that of the high ones below 2^31. */
+    uint32_t high = 0;
+    uint32_t low = 0;
+    el_add_halves(a[0], b[0], &high, &low);
+    el_add_halves(a[1], b[1], &high, &low);
+    el_add_halves(a[2], b[2], &high, &low);
+    const uint32_t upper = (uint32_t)((int32_t)high >> 17);
+    return (int64_t)((uint64_t)upper << 32 | high << 15) + (int32_t)low;
+#else
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 #endif
 }
 

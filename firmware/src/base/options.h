@@ -57,15 +57,6 @@
 #define EL_WITH_DEBUG_VIEWS 0
 #endif
 
-#if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
-     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_DEBUG_VIEWS) &                                                            \
-    ~1
-#error "each EL_WITH_ option is 0 or 1"
-#endif
-#if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
-#error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"
-#endif
-
 /* 1: of two ways to the same pixels the shorter code, as -Os asks for; 0: the faster. */
 #ifndef EL_SMALL_CODE
 #ifdef __OPTIMIZE_SIZE__
@@ -73,6 +64,21 @@
 #else
 #define EL_SMALL_CODE 0
 #endif
+#endif
+
+/* Triangles of a full display list shrink to 8 bytes each. Without, which is what small code begins with, a full list
+ * costs passes sooner, and each draw call takes 128 bytes less. */
+#ifndef EL_WITH_THIN
+#define EL_WITH_THIN (!EL_SMALL_CODE)
+#endif
+
+#if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
+     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_DEBUG_VIEWS) &                                             \
+    ~1
+#error "each EL_WITH_ option is 0 or 1"
+#endif
+#if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
+#error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"
 #endif
 
 /* Functions of headers: a copy of its own for each file that calls them, to be merged with the caller; or, in small code,
@@ -83,6 +89,13 @@
 #else
 #define EL_INLINE static inline
 #define EL_INLINE_HERE static inline
+#endif
+
+/* Functions that are compiled anew into each caller, with what is known there, where speed counts. */
+#if EL_SMALL_CODE
+#define EL_SPECIALISED inline
+#else
+#define EL_SPECIALISED inline __attribute__((always_inline))
 #endif
 
 #endif

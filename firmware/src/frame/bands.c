@@ -1,7 +1,5 @@
 #include "frame/bands.h"
 
-#include <string.h>
-
 #include "base/fill.h"
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
@@ -11,14 +9,14 @@
  * state, the triangle is set up anew in every band: slower, with the same pixels. */
 typedef struct states {
     uint32_t used;                              /* end of the memory handed out so far, bytes from the list's base */
-    uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; 0: none */
+    uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; each begins with the next one's name; 0: none */
 } states;
 
 static uint16_t take_state(states *pool, const el_list *list, el_shading shading)
 {
     const uint16_t reused = pool->given_back[shading];
     if (reused != 0) {
-        memcpy(&pool->given_back[shading], el_list_at(list, reused), sizeof pool->given_back[shading]);
+        pool->given_back[shading] = *(const uint16_t *)el_list_at(list, reused);
         return reused;
     }
     const uint32_t bytes = EL_ROUND_UP_8(el_triangle_bytes(shading));
@@ -32,7 +30,7 @@ static uint16_t take_state(states *pool, const el_list *list, el_shading shading
 
 static void give_state(states *pool, const el_list *list, el_shading shading, uint16_t name)
 {
-    memcpy(el_list_at(list, name), &pool->given_back[shading], sizeof pool->given_back[shading]);
+    *(uint16_t *)el_list_at(list, name) = pool->given_back[shading];
     pool->given_back[shading] = name;
 }
 
@@ -100,7 +98,7 @@ static bool draw_record(el_renderer *renderer, el_record *record, const el_targe
     } else {
         el_corner corners[3];
         el_surface surface;
-        el_list_gather(list, record, corners, &surface);
+        el_count(&renderer->stats.vertices, el_list_gather(list, record, corners, &surface));
         surface.uv_error_log2 = renderer->config.uv_error_log2;
         el_debug_surface(renderer, record, &surface);
         el_count(&renderer->stats.setups, 1);

@@ -23,16 +23,31 @@ typedef struct drawing {
     bool direct;
     el_record_kind kind;     /* of its triangles */
     el_record_kind cut_kind; /* of those that are cut */
-    uint32_t capacity;       /* vertices in the cache */
+    uint32_t slots;          /* of the cache, a power of two */
     void *vertices;          /* el_screen_vertex[] or cached_vertex[] */
     el_draw_state state;
-    el_transform transform;
 } drawing;
 
-static void transform_vertex(drawing *d, uint32_t index, el_screen_vertex *screen)
+static void transform_one(const drawing *d, uint16_t index, el_screen_vertex *screen)
 {
-    el_transform_vertex(&d->transform, d->mesh->positions[index], screen);
+#if EL_SMALL_CODE
+    el_transform_vertex(&d->state.transform, d->mesh->positions[index], screen);
+#else
+    el_transform_vertex_in_view(&d->state.transform, d->mesh->positions[index], screen);
+#endif
     el_count(&d->renderer->stats.vertices, 1);
+}
+
+static void transform_all(const drawing *d)
+{
+#if EL_SMALL_CODE
+    for (uint16_t i = 0; i < d->mesh->vertex_count; i++) {
+        transform_one(d, i, (el_screen_vertex *)d->vertices + i);
+    }
+#else
+    el_transform_vertices(&d->state.transform, d->mesh->positions, d->mesh->vertex_count, d->vertices);
+    el_count(&d->renderer->stats.vertices, d->mesh->vertex_count);
+#endif
 }
 
 /* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
@@ -52,49 +67,90 @@ static void place_vertices(drawing *d)
         bytes = EL_ROUND_UP_8(direct_bytes);
     } else {
         d->direct = false;
-        bytes = (depth_bytes + free_bytes / 8) / 8 * 8;
-        d->capacity = bytes / (uint32_t)sizeof(cached_vertex);
+        bytes = (uint32_t)el_max_i32((int32_t)depth_bytes, (int32_t)(free_bytes / 8)) / 8 * 8;
+        /* NOLINTNEXTLINE(clang-analyzer-core.*): el_draw saw to it that there is room for a vertex at least. */
+        d->slots = 1U << (el_bit_length_u32(bytes / (uint32_t)sizeof(cached_vertex)) - 1);
     }
     const uint32_t beside = bytes > depth_bytes ? bytes - depth_bytes : 0U;
     list->end = renderer->list_bytes - beside;
     d->vertices = list_end + depth_bytes - bytes;
 
     if (d->direct) {
-        el_screen_vertex *const vertices = d->vertices;
-        for (uint32_t i = 0; i < d->mesh->vertex_count; i++) {
-            transform_vertex(d, i, &vertices[i]);
-        }
+        transform_all(d);
         return;
     }
     cached_vertex *const cache = d->vertices;
-    for (uint32_t i = 0; i < d->capacity; i++) {
+    for (uint32_t i = 0; i < d->slots; i++) {
         cache[i].index = 0xFFFF;
     }
 }
 
-static el_screen_vertex vertex_at(drawing *d, uint16_t index)
+static cached_vertex *slot_of(const drawing *d, uint16_t index)
 {
-    if (d->direct) {
-        return ((const el_screen_vertex *)d->vertices)[index];
-    }
-    /* NOLINTNEXTLINE(clang-analyzer-core.*): el_draw saw to it that there is room for two vertices at least. */
-    cached_vertex *const slot = (cached_vertex *)d->vertices + index % d->capacity;
-    if (slot->index != index) {
-        slot->index = index;
-        transform_vertex(d, index, &slot->vertex);
-    }
-    return slot->vertex;
+    return (cached_vertex *)d->vertices + (index & (d->slots - 1U));
 }
 
-/* The list is full. Gives up the last quarter of the pass' bands, or draws the list where there is one band only.
- * Returns true when vertices that lay over the depth band are lost, because the band's depth is there now. */
+static inline el_screen_vertex *find_vertex(const drawing *d, cached_vertex *slot, uint16_t index)
+{
+    if (slot->index != index) {
+        slot->index = index;
+        transform_one(d, index, &slot->vertex);
+    }
+    return &slot->vertex;
+}
+
+/* A triangle's vertices at their places; false where two of them share a slot of the cache. */
+static inline bool find_in_place(const drawing *d, const uint16_t indices[3], el_screen_vertex *v[3])
+{
+    if (d->direct) {
+        el_screen_vertex *const all = d->vertices;
+        v[0] = all + indices[0];
+        v[1] = all + indices[1];
+        v[2] = all + indices[2];
+        return true;
+    }
+    cached_vertex *const a = slot_of(d, indices[0]);
+    cached_vertex *const b = slot_of(d, indices[1]);
+    cached_vertex *const c = slot_of(d, indices[2]);
+    if (a == b || b == c || c == a) {
+        return false;
+    }
+    v[0] = find_vertex(d, a, indices[0]);
+    v[1] = find_vertex(d, b, indices[1]);
+    v[2] = find_vertex(d, c, indices[2]);
+    return true;
+}
+
+/* The same, or where that does not do and in small code, copies. */
+static void find_vertices(const drawing *d, const uint16_t indices[3], el_screen_vertex *v[3],
+                          el_screen_vertex copies[3])
+{
+    if (!EL_SMALL_CODE && find_in_place(d, indices, v)) {
+        return;
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        copies[i] = d->direct ? ((const el_screen_vertex *)d->vertices)[indices[i]]
+                              : *find_vertex(d, slot_of(d, indices[i]), indices[i]);
+        v[i] = &copies[i];
+    }
+}
+
+/* The list is full. Makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
+ * is one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's
+ * depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;
     el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);
+    const int32_t lines = renderer->config.band_lines;
+#if EL_WITH_THIN
+    if (bands > 1 && !renderer->list.is_thin) {
+        el_list_make_thin(&renderer->list, renderer->pass_begin * lines);
+        return false;
+    }
+#endif
     if (bands > 1) {
-        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 3 / 4);
-        const int32_t lines = renderer->config.band_lines;
+        renderer->pass_end = (uint16_t)(renderer->pass_begin + bands * 15 / 16);
         el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
         return false;
     }
@@ -103,21 +159,21 @@ static bool make_room(el_renderer *renderer)
     return !was_open;
 }
 
-static void fill_plain(el_record *record, uint16_t index, const el_screen_vertex v[3])
+static void fill_plain(el_record *record, uint16_t index, const el_screen_vertex *const v[3])
 {
     record->index = index;
     for (unsigned i = 0; i < 3; i++) {
-        record->at.points[i] = (el_point){.x = v[i].x, .y = v[i].y, .z = v[i].z};
+        record->at.points[i] = (el_point){.x = v[i]->x, .y = v[i]->y, .z = v[i]->z};
     }
 }
 
-static void fill_perspective(el_record *record, const el_screen_vertex v[3])
+static void fill_perspective(el_record *record, const el_screen_vertex *const v[3])
 {
     el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
     unsigned shifts = 0;
     for (unsigned i = 0; i < 3; i++) {
-        perspective->w[i] = v[i].w;
-        shifts |= (unsigned)v[i].w_shift << (5 * i);
+        perspective->w[i] = v[i]->w;
+        shifts |= (unsigned)v[i]->w_shift << (5 * i);
     }
     perspective->w_shifts = (uint16_t)shifts;
 }
@@ -126,6 +182,7 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
 {
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
     for (unsigned i = 0; i < 3; i++) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a clipped record is made of a triangle that was cut. */
         const int32_t *const a = corners[i]->attributes;
         el_attributes *const attributes = &clipped->attributes[i];
         *attributes = (el_attributes){.u_q16 = a[U], .v_q16 = a[V]};
@@ -135,22 +192,24 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
     }
 }
 
-/* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. */
-static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3], const el_clip_corner *const cut[3])
+/* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. Returns
+ * false when the list is full. */
+static bool try_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
+                         const el_clip_corner *const cut[3])
 {
     el_renderer *const renderer = d->renderer;
     el_stats *const stats = &renderer->stats;
-    const int32_t x[3] = {v[0].x, v[1].x, v[2].x};
-    const int32_t y[3] = {v[0].y, v[1].y, v[2].y};
+    const int32_t x[3] = {v[0]->x, v[1]->x, v[2]->x};
+    const int32_t y[3] = {v[0]->y, v[1]->y, v[2]->y};
 
     const int64_t area = el_doubled_area(x, y);
     if (area == 0) {
         el_count(&stats->triangles_empty, 1);
-        return;
+        return true;
     }
     if (el_shows_back(&d->state, area) && (d->state.material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
         el_count(&stats->triangles_backface, 1);
-        return;
+        return true;
     }
     const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
     const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
@@ -158,35 +217,59 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex v[3]
     const int32_t y_end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])));
     if (x_begin >= x_end || y_begin >= y_end) {
         el_count(&stats->triangles_empty, 1);
-        return;
+        return true;
     }
     if (x_end <= 0 || x_begin >= renderer->config.width || y_end <= 0 || y_begin >= renderer->config.height) {
         el_count(&stats->triangles_outside, 1);
-        return;
+        return true;
     }
 
     const int32_t lines = renderer->config.band_lines;
     const int32_t pass_row = renderer->pass_begin * lines;
     const int32_t row = el_max_i32(y_begin, pass_row);
-    const el_record_kind kind = cut != NULL ? d->cut_kind : d->kind;
-    el_record *record = NULL;
-    while (record == NULL) {
-        if (y_end <= pass_row || row >= renderer->pass_end * lines) {
-            el_count(&stats->triangles_other, 1);
-            return;
-        }
-        record = el_list_append(&renderer->list, &d->state, kind, row);
-        if (record == NULL && make_room(renderer)) {
-            place_vertices(d);
-        }
+    if (y_end <= pass_row || row >= renderer->pass_end * lines) {
+        el_count(&stats->triangles_other, 1);
+        return true;
+    }
+    const el_record_kind whole = el_list_is_thin(&renderer->list) ? EL_RECORD_THIN : d->kind;
+    const el_record_kind kind = cut != NULL ? d->cut_kind : whole;
+    el_record *const record = el_list_append(&renderer->list, &d->state, kind, row);
+    if (record == NULL) {
+        return false;
     }
     el_count(&stats->triangles_listed, 1);
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        record->index = index;
+        record->at.row = (int16_t)y_begin;
+        return true;
+    }
     fill_plain(record, index, v);
-    if (EL_WITH_TEXTURE && kind != EL_RECORD_PLAIN) {
+    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
         fill_perspective(record, v);
     }
     if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
         fill_clipped(record, cut);
+    }
+    return true;
+}
+
+static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
+                         const el_clip_corner *const cut[3])
+{
+#if EL_SMALL_CODE
+    const el_screen_vertex *const *const kept = v;
+#else
+    if (try_triangle(d, index, v, cut)) {
+        return;
+    }
+    /* The vertices' place may be needed. */
+    const el_screen_vertex copies[3] = {*v[0], *v[1], *v[2]};
+    const el_screen_vertex *const kept[3] = {&copies[0], &copies[1], &copies[2]};
+#endif
+    while (!try_triangle(d, index, kept, cut)) {
+        if (make_room(d->renderer)) {
+            place_vertices(d);
+        }
     }
 }
 
@@ -230,7 +313,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     el_clip_corner corners[EL_CLIP_MAX_VERTICES];
     el_clip_vertex clip[3];
     for (unsigned i = 0; i < 3; i++) {
-        clip[i] = el_transform_position(&d->transform, d->mesh->positions[vertices[i]]);
+        clip[i] = el_transform_position(&d->state.transform, d->mesh->positions[vertices[i]]);
     }
     const bool turned = coloured && el_is_lit(material) && (material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
                         seen_from_back(&d->state, clip);
@@ -248,7 +331,7 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
             }
         }
     }
-    const unsigned count = el_clip_polygon(&d->transform, corners, 3, codes);
+    const unsigned count = el_clip_polygon(&d->state.transform, corners, 3, codes);
     el_count(&d->renderer->stats.triangles_clipped, 1);
     if (count == 0) {
         el_count(&d->renderer->stats.triangles_outside, 1);
@@ -256,36 +339,55 @@ static void clip_triangle(drawing *d, uint16_t index, uint8_t codes)
     }
     el_screen_vertex screen[EL_CLIP_MAX_VERTICES];
     for (unsigned i = 0; i < count; i++) {
-        el_project(&d->transform, &corners[i].position, &screen[i]);
+        el_project(&d->state.transform, &corners[i].position, &screen[i]);
     }
     const unsigned a = fan_root(screen, count);
     for (unsigned i = 2; i < count; i++) {
         const unsigned b = (a + i - 1) % count;
         const unsigned c = (a + i) % count;
-        const el_screen_vertex fan[3] = {screen[a], screen[b], screen[c]};
+        const el_screen_vertex *const fan[3] = {&screen[a], &screen[b], &screen[c]};
         const el_clip_corner *const cut[3] = {&corners[a], &corners[b], &corners[c]};
         add_triangle(d, index, fan, cut);
     }
 }
 
+/* Now a triangle needs them. Returns the bits of all three codes. */
+static unsigned transform_later(const drawing *d, const uint16_t indices[3], el_screen_vertex *const v[3])
+{
+    unsigned codes = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        if ((v[i]->code & EL_CODE_LATER) != 0) {
+            el_transform_vertex(&d->state.transform, d->mesh->positions[indices[i]], v[i]);
+        }
+        codes |= v[i]->code;
+    }
+    return codes;
+}
+
 static void draw_triangles(drawing *d)
 {
     el_stats *const stats = &d->renderer->stats;
-    for (uint32_t i = 0; i < d->mesh->triangle_count; i++) {
+    const uint32_t count = d->mesh->triangle_count;
+    for (uint32_t i = 0; i < count; i++) {
         const uint16_t *const vertices = d->mesh->triangles[i];
-        const el_screen_vertex v[3] = {vertex_at(d, vertices[0]), vertex_at(d, vertices[1]), vertex_at(d, vertices[2])};
-        el_count(&stats->triangles, 1);
-        if ((v[0].code & v[1].code & v[2].code & EL_CODE_OUTSIDE) != 0) {
+        el_screen_vertex copies[3];
+        el_screen_vertex *v[3];
+        find_vertices(d, vertices, v, copies);
+        if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
             el_count(&stats->triangles_outside, 1);
             continue;
         }
-        const uint8_t codes = v[0].code | v[1].code | v[2].code;
-        if ((codes & EL_CODE_CLIP) != 0) {
-            clip_triangle(d, (uint16_t)i, codes);
-        } else {
-            add_triangle(d, (uint16_t)i, v, NULL);
+        unsigned codes = v[0]->code | v[1]->code | v[2]->code;
+        if (!EL_SMALL_CODE && (codes & EL_CODE_LATER) != 0) {
+            codes = transform_later(d, vertices, v);
         }
+        if ((codes & EL_CODE_CLIP) != 0) {
+            clip_triangle(d, (uint16_t)i, (uint8_t)codes);
+            continue;
+        }
+        add_triangle(d, (uint16_t)i, (const el_screen_vertex *const *)v, NULL);
     }
+    el_count(&stats->triangles, count);
 }
 
 /* The bits of el_shading that options.h leaves out. */
@@ -326,7 +428,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     }
     el_count(&renderer->stats.draws, 1);
     drawing d = {.renderer = renderer, .mesh = mesh};
-    const int visibility = el_transform_make(&d.transform, &renderer->view, mesh, pose);
+    const int visibility = el_transform_make(&d.state.transform, &renderer->view, mesh, pose);
     if (visibility < 0) {
         return (el_status)visibility;
     }
@@ -334,7 +436,9 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         el_count(&renderer->stats.draws_culled, 1);
         return EL_OK;
     }
-    d.state = (el_draw_state){.mesh = mesh, .material = material, .mirrored = d.transform.mirrored};
+    d.state.mesh = mesh;
+    d.state.material = material;
+    d.state.mirrored = d.state.transform.mirrored;
     if (el_is_lit(material)) {
         /* Into model space, by the transposed rotation. */
         for (unsigned i = 0; i < 3; i++) {
@@ -348,8 +452,8 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return EL_OK;
     }
     d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
-    d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_PLAIN;
-    el_list_end_run(&renderer->list);
+    d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT;
+    el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {
         (void)make_room(renderer);

@@ -10,7 +10,7 @@ _Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_
 _Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
                "the size that EL_MEMORY_BYTES counts with");
 _Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
-_Static_assert(sizeof(el_run) <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_run) + EL_DRAW_STATE_BYTES <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
 el_status el_init(el_renderer *renderer, const el_config *config)
 {

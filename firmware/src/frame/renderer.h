@@ -6,10 +6,11 @@
  *     } while (el_frame_next(&r) > 0);
  *
  * A pass collects the triangles of as many bands as the arena has room for, draws them band by band and hands the bands
- * to the sinks. When the list fills up while it is being collected, the pass gives up its lower bands, which a further
- * pass draws; the caller's loop submits the scene again. A pass of one band cannot shrink: it draws what it has into
- * the band and goes on collecting. So every frame gets drawn, in any arena that el_init accepts, with the same pixels:
- * which triangle wins a pixel depends on depth and order of submission alone. */
+ * to the sinks. When the list fills up while it is being collected, it keeps 8 bytes per triangle from then on; when that
+ * is too much as well, the pass gives up its lower bands, which a further pass draws; the caller's loop submits the scene
+ * again. A pass of one band cannot shrink: it draws what it has into the band and goes on collecting. So every frame gets
+ * drawn, in any arena that el_init accepts, with the same pixels: which triangle wins a pixel depends on depth and order
+ * of submission alone. */
 #ifndef EL_FRAME_RENDERER_H
 #define EL_FRAME_RENDERER_H
 
@@ -42,8 +43,10 @@ extern "C" {
 #endif
 
 enum {
-    EL_MIN_LIST_BYTES = 512, /* room for a run, a cut triangle and a few vertices at a time */
-    EL_RUN_BYTES = 32        /* a draw call's, and another for each change between whole and cut triangles */
+    /* Room for a draw call, a cut triangle and a few vertices at a time. */
+    EL_MIN_LIST_BYTES = EL_WITH_THIN ? 704 : 512,
+    /* A draw call's; 8 for each change between whole and cut triangles come to it. */
+    EL_RUN_BYTES = EL_WITH_THIN ? 160 : 32
 };
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
@@ -55,9 +58,10 @@ enum {
 
 /* An arena in which a frame of `draws` draw calls of meshes of at most `vertices` vertices each, with `triangles` visible
  * textured triangles in all, takes one pass (24/32 of that for triangles without textures). A triangle that is cut at the
- * near or far plane or the guard band counts for up to seven of three times the size; few are. While triangles are
- * collected the vertices lie in the depth band, which is not in use then, and beside it where that is too small.
- * Less memory costs passes, never pixels. Never less than el_init accepts. */
+ * near or far plane or the guard band counts for up to seven of three times the size; few are. A third of the room for
+ * triangles takes one pass too, but their vertices are transformed twice then, and more often where little is left. While
+ * triangles are collected the vertices lie in the depth band, which is not in use then, and beside it where that is too
+ * small. Less memory costs passes, never pixels. Never less than el_init accepts. */
 #define EL_MEMORY_BYTES(width, height, band_lines, vertices, triangles, draws)                                         \
     EL_MAX_OF(EL_MIN_MEMORY_BYTES(width, height, band_lines),                                                          \
               2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                        \
@@ -116,9 +120,9 @@ el_status el_init(el_renderer *renderer, const el_config *config);
 el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
- * EL_ERROR_MATERIAL: textured without texture or texture coordinates, a light without normals, or what
- * base/options.h leaves out. EL_ERROR_RANGE: the
- * pose or the mesh leaves the world, or the mesh is too large for so narrow a view; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
+ * EL_ERROR_MATERIAL: textured without texture or texture coordinates, a light without normals, or what base/options.h
+ * leaves out. EL_ERROR_RANGE: the pose or the mesh leaves the world, or the mesh is too large for so narrow a view;
+ * EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
  * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);
 

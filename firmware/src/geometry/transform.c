@@ -149,8 +149,8 @@ static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
     return value;
 }
 
-/* The most that the form differs from its value at the centre, within a sphere that is a unit larger: the length of its
- * row, rounded up, times the radius. */
+/* The most that the form differs from its value at the centre, within a sphere that is a unit larger, and two at least:
+ * the length of its row, rounded up, times the radius. So a row is no longer than half of what coordinates may be. */
 static int64_t form_reach(const el_form *form, const el_mesh *mesh)
 {
     uint64_t all = 0;
@@ -163,7 +163,7 @@ static int64_t form_reach(const el_form *form, const el_mesh *mesh)
         const uint32_t part = (uint32_t)(el_abs_u64(form->at[i]) >> shift) + 1U;
         sum += (uint64_t)part * part;
     }
-    return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * (mesh->radius + 1U));
+    return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * ((uint32_t)el_max_i32(mesh->radius, 1) + 1U));
 }
 
 /* value * factor * 2^-shift, rounded. */
@@ -285,8 +285,8 @@ static int choose_unit(const el_view *view, const el_mesh *mesh, const el_form f
     return 30 - (el_bit_length_u64((uint64_t)largest) - (FORM_BITS - COARSE));
 }
 
-/* A coarser unit leaves too few bits to d, or to the constant w: meshes of thousands of units before a camera whose picture is a
- * fraction of one across. */
+/* A coarser unit leaves too few bits to d, or to the constant w: meshes of thousands of units before a camera whose
+ * picture is a fraction of one across. */
 enum { MIN_UNIT_LOG2 = 0, MIN_W_BITS_ORTHOGRAPHIC = 8 };
 
 /* EL_DEPTH_MAX / (far - near) per unit, its mantissa below 2^32; w_log2: of the constant w. */
@@ -325,7 +325,8 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
         return EL_ERROR_RANGE;
     }
 
-    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit 31. */
+    /* Rows with 31 extra bits first, then as many bits less as the largest element needs to fit EL_ROW_BITS. Meshes of a
+     * unit or two keep up to 30: a row is shorter than 2^30 then, and its elements add up to sqrt(3) of that. */
     uint64_t all = 0;
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {
@@ -334,7 +335,7 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
             all |= el_abs_u64(*element);
         }
     }
-    const int drop = el_max_i32(0, el_min_i32(30, el_bit_length_u64(all) - 31));
+    const int drop = el_max_i32(0, el_min_i32(30, el_bit_length_u64(all) - EL_ROW_BITS));
     transform->shift = (uint8_t)(31 - drop);
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {
@@ -371,16 +372,15 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     return EL_VISIBLE;
 }
 
-static int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
+static inline int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
 {
     /* Three products below 2^46 and an offset below 2^62. */
-    const int32_t *row = transform->rows[i];
-    const int64_t sum = transform->offsets[i] + el_product_i32_i16(row[0], p[0]) + el_product_i32_i16(row[1], p[1]) +
-                        el_product_i32_i16(row[2], p[2]);
-    return (int32_t)(sum >> transform->shift);
+    const uint64_t sum = (uint64_t)(transform->offsets[i] + el_dot_i32_i16(transform->rows[i], p));
+    /* The lower word of sum >> shift, 1 <= shift <= 31. */
+    return (int32_t)((uint32_t)(sum >> 32) << (32 - transform->shift) | (uint32_t)sum >> transform->shift);
 }
 
-el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
+static EL_SPECIALISED el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
 {
     el_clip_vertex vertex;
     vertex.x = form_value(transform, 0, position);
@@ -390,29 +390,36 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     return vertex;
 }
 
-/* EL_CODE_LEFT and _RIGHT, and _GUARD, of one coordinate, whatever it and w are: ~w is -w - 1, and v / 2^shift rounded down
- * compares with a whole number as v does with that number times 2^shift. */
-static unsigned side_code(int32_t v, int32_t w, unsigned guard_shift)
+el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
 {
-    unsigned code = 0;
-    if (v <= ~w) {
-        code |= EL_CODE_LEFT | (v >> guard_shift <= ~w ? EL_CODE_GUARD : 0U);
-    }
-    if (v > w) {
-        code |= EL_CODE_RIGHT | ((v - 1) >> guard_shift >= w ? EL_CODE_GUARD : 0U);
-    }
+    return position_of(transform, position);
+}
+
+/* The sides of the view that a vertex is beyond, whatever it and w are: ~w is -w - 1. */
+static inline unsigned outside_code(const el_transform *transform, const el_clip_vertex *vertex)
+{
+    const int32_t w = vertex->w;
+    unsigned code = vertex->x <= ~w ? EL_CODE_LEFT : 0U;
+    code |= vertex->x > w ? EL_CODE_RIGHT : 0U;
+    code |= vertex->y <= ~w ? EL_CODE_BELOW : 0U;
+    code |= vertex->y > w ? EL_CODE_ABOVE : 0U;
+    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
+    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
     return code;
+}
+
+/* Of one coordinate: v / 2^shift rounded down compares with a whole number as v does with that number times 2^shift. */
+static bool is_beyond_guard(int32_t v, int32_t w, unsigned shift)
+{
+    return (v <= ~w && v >> shift <= ~w) || (v > w && (v - 1) >> shift >= w);
 }
 
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
 {
-    _Static_assert(EL_CODE_BELOW == EL_CODE_LEFT << 2 && EL_CODE_ABOVE == EL_CODE_RIGHT << 2, "y's codes follow x's");
-    const unsigned x = side_code(vertex->x, vertex->w, transform->guard_shift[0]);
-    const unsigned y = side_code(vertex->y, vertex->w, transform->guard_shift[1]);
-    unsigned code = x | (y & EL_CODE_GUARD) | (y & (EL_CODE_LEFT | EL_CODE_RIGHT)) << 2;
-    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
-    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    return (uint8_t)code;
+    const unsigned code = outside_code(transform, vertex);
+    const bool guard = is_beyond_guard(vertex->x, vertex->w, transform->guard_shift[0]) ||
+                       is_beyond_guard(vertex->y, vertex->w, transform->guard_shift[1]);
+    return (uint8_t)(code | (guard ? EL_CODE_GUARD : 0U));
 }
 
 /* middle + half * c / w in 1/EL_SUBPIXELS px, to the nearest, ties up.
@@ -461,87 +468,116 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
 }
 
 #if !EL_SMALL_CODE
-/* snap without the last bits: |c| / w from 31 bits of the reciprocal, too low by less than 1.5 units of 2^(s - 31), s being
- * the divisor's shift. Times `half` that is the result's magnitude with 31 - s bits of fraction, too low by less than
- * 2 half units. False where that might matter: near a tie, and for a w of few bits. */
-static inline bool snap_fast(int32_t c, uint16_t size, const el_divisor *divisor, uint32_t reciprocal,
-                             el_coordinate *result)
+/* snap without the last bits, for what is in the view. c + w is in [0, 2w], so with w moved up to 31 bits, and c + w alike,
+ * no bit is lost, and their ratio with 30 bits of fraction is a product with the reciprocal, too low by less than
+ * EL_RECIPROCAL_ERROR + 1 units, 19. Times `half` it is the result, too low by less than 20 half units. False where that
+ * might matter: below a tie. */
+static inline bool snap_fast(uint32_t from_the_side, uint16_t size, uint32_t reciprocal, el_coordinate *result)
 {
     const uint32_t half = size * (uint32_t)(EL_SUBPIXELS / 2);
-    const unsigned s = divisor->shift;
-    const uint32_t magnitude = c < 0 ? 0U - (uint32_t)c : (uint32_t)c;
-    const uint32_t ratio = (uint32_t)(el_product_u64(magnitude, reciprocal) >> 32);
-    const uint64_t scaled = el_product_u64(ratio, half) + (1ULL << (30U - s));
-    const uint32_t fraction = (uint32_t)scaled << (s + 1U);
-    if (fraction == 0 || fraction >= 0U - (half << (s + 2U))) {
-        return false;
-    }
-    const int32_t offset = (int32_t)((uint32_t)(scaled >> 32) << (s + 1U) | (uint32_t)scaled >> (31U - s));
-    *result = (el_coordinate)((int32_t)half + (c < 0 ? -offset : offset));
-    return true;
+    const uint32_t ratio = el_product_high_u32(from_the_side, reciprocal);
+    const uint64_t scaled =
+        (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) + (1U << 29);
+    *result = (el_coordinate)((uint32_t)(scaled >> 30));
+    return (uint32_t)scaled << 2 < 0U - half * (20U << 2);
 }
 
-/* The largest shift with which 2 half units are a fraction: half < 2^14 * EL_SUBPIXELS / 16. */
-enum { FAST_SHIFT = 30 - 14 - (EL_SUBPIXEL_BITS - 4) };
-
-/* depth_of without the last bits: near / w from 31 bits of the reciprocal and all of near's, with at least 31 bits
- * of fraction, too low by less than 2 units; so scale * near / w, Q12 + 31, by less than 2 * 2^32, 2 of the 2^11 units that
- * are kept, and 1 more that is cut off; and depth_of's own rounding of the ratio is less than one of them. */
-static inline bool depth_fast(const el_transform *transform, const el_divisor *divisor, uint32_t reciprocal,
-                              uint16_t *result)
+/* depth_of without the last bits: near / w from 32 bits of near, with at least 31 bits of fraction, too low by less than
+ * EL_RECIPROCAL_ERROR + 1 units; so scale * near / w, Q12 + 31, by less than 19 * 2^32, 19 of the 2^11 units that are
+ * kept, and two for their rounding; and depth_of's own rounding of the ratio is less than one of them. */
+static inline bool depth_fast(const el_transform *transform, unsigned w_shift, uint32_t reciprocal, uint16_t *result)
 {
-    const uint32_t ratio = (uint32_t)(el_product_u64(transform->near_bits, reciprocal) >> 32);
-    const int excess = 32 - divisor->shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
+    enum { OFF = 24 };
+    const uint32_t ratio = el_product_high_u32(transform->near_bits, reciprocal);
+    const int excess = 32 - (int)w_shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
     if (excess < 0 || excess > 31) {
         return false;
     }
-    const uint64_t product = el_product_u64(transform->depth_scale, ratio);
-    const uint32_t high = (uint32_t)(product >> 32) >> excess;
+    const uint32_t high = el_product_high_u32(transform->depth_scale, ratio) >> excess;
     const uint32_t z = (transform->depth_scale >> 1) - high + (1U << 10);
     const uint32_t fraction = z & 2047U;
-    if (fraction < 5U || fraction > 2042U || z >> 11 > EL_DEPTH_MAX) {
+    if (fraction < OFF || fraction > 2047U - OFF || z >> 11 > EL_DEPTH_MAX) {
         return false;
     }
     *result = (uint16_t)(z >> 11);
     return true;
 }
-#endif
 
-static void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+/* keep_reciprocal from the reciprocal's upper bits. False where that might matter. */
+static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shift, uint32_t reciprocal)
 {
-#if EL_SMALL_CODE
-    el_project(transform, vertex, screen);
-#else
+    const uint32_t rounded = ((reciprocal >> 15) + 1U) >> 1;
+    screen->w = (uint16_t)(rounded > 0xFFFFU ? 0xFFFFU : rounded);
+    screen->w_shift = (uint8_t)(31U - w_shift);
+    return ((reciprocal + 0x8000U) & 0xFFFFU) < 0x10000U - EL_RECIPROCAL_ERROR;
+}
+
+/* el_project for what is in the view, which most vertices are: without the last bits, and once more where these might
+ * matter. */
+static inline void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
+{
     const uint32_t w = (uint32_t)vertex->w;
-    const el_divisor divisor = el_divisor_make(w);
-    const uint32_t reciprocal = divisor.reciprocal >> 1 | 1U << 31;
-    const bool fast = divisor.shift <= FAST_SHIFT;
-    if (!fast || !snap_fast(vertex->x, transform->size[0], &divisor, reciprocal, &screen->x)) {
-        screen->x = snap(vertex->x, transform->size[0], w, &divisor);
-    }
-    if (!fast || !snap_fast(-vertex->y, transform->size[1], &divisor, reciprocal, &screen->y)) {
-        screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
-    }
-    if (el_transform_is_orthographic(transform) || !depth_fast(transform, &divisor, reciprocal, &screen->z)) {
+    const unsigned shift = (unsigned)__builtin_clz(w); /* w < 2^31: 1 at least */
+    const uint32_t reciprocal = el_reciprocal_near(w << shift);
+    const uint32_t x = (w + (uint32_t)vertex->x) << (shift - 1U);
+    const uint32_t y = (w - (uint32_t)vertex->y) << (shift - 1U);
+    if (!snap_fast(x, transform->size[0], reciprocal, &screen->x) ||
+        !snap_fast(y, transform->size[1], reciprocal, &screen->y) || !keep_reciprocal_fast(screen, shift, reciprocal)) {
+        el_project(transform, vertex, screen);
+    } else if (el_transform_is_orthographic(transform) || !depth_fast(transform, shift, reciprocal, &screen->z)) {
+        const el_divisor divisor = el_divisor_make(w);
         screen->z = depth_of(transform, vertex, w, &divisor);
     }
-    keep_reciprocal(screen, &divisor);
-#endif
 }
+
+/* Most vertices are in the view, between near and far: three comparisons. */
+static inline bool is_in_view(const el_transform *transform, const el_clip_vertex *vertex)
+{
+    const uint32_t w = (uint32_t)vertex->w;
+    const uint32_t near = (uint32_t)transform->near;
+    return (uint32_t)vertex->d - near <= (uint32_t)transform->far - near && (uint32_t)vertex->x + w <= 2U * w &&
+           (uint32_t)vertex->y + w <= 2U * w;
+}
+#endif
 
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
-    const el_clip_vertex vertex = el_transform_position(transform, position);
-    const uint32_t w = (uint32_t)vertex.w;
-    /* Most vertices are in the view, between near and far: three comparisons then. */
-    if ((uint32_t)vertex.d - (uint32_t)transform->near <= (uint32_t)transform->far - (uint32_t)transform->near &&
-        (uint32_t)vertex.x + w <= 2U * w && (uint32_t)vertex.y + w <= 2U * w) {
+    const el_clip_vertex vertex = position_of(transform, position);
+#if !EL_SMALL_CODE
+    if (is_in_view(transform, &vertex)) {
         screen->code = 0;
         project_inside(transform, &vertex, screen);
         return;
     }
+#endif
     screen->code = el_outcode(transform, &vertex);
     if ((screen->code & EL_CODE_CLIP) == 0) {
         el_project(transform, &vertex, screen);
     }
 }
+
+#if !EL_SMALL_CODE
+static inline void transform_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    const el_clip_vertex vertex = position_of(transform, position);
+    if (is_in_view(transform, &vertex)) {
+        screen->code = 0;
+        project_inside(transform, &vertex, screen);
+    } else {
+        screen->code = (uint8_t)(outside_code(transform, &vertex) | EL_CODE_LATER);
+    }
+}
+
+void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    transform_in_view(transform, position, screen);
+}
+
+void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
+                           el_screen_vertex *screen)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        transform_in_view(transform, positions[i], &screen[i]);
+    }
+}
+#endif

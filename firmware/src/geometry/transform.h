@@ -52,10 +52,14 @@ enum {
     EL_CODE_ABOVE = 8,
     EL_CODE_NEAR = 16,
     EL_CODE_FAR = 32,
-    EL_CODE_GUARD = 64, /* beyond the guard band */
+    EL_CODE_GUARD = 64,  /* beyond the guard band */
+    EL_CODE_LATER = 128, /* neither compared with the guard band nor projected yet */
     EL_CODE_OUTSIDE = EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE | EL_CODE_NEAR | EL_CODE_FAR,
     EL_CODE_CLIP = EL_CODE_NEAR | EL_CODE_FAR | EL_CODE_GUARD /* cannot be projected: its triangles are cut first */
 };
+
+/* Of a row's elements: what a core without long products adds up in 32 bits. */
+enum { EL_ROW_BITS = 29 };
 
 typedef struct el_transform {
     uint8_t shift; /* 1..31 */
@@ -65,7 +69,8 @@ typedef struct el_transform {
     uint8_t depth_shift;
     int8_t near_shift;
     uint16_t size[2];
-    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift */
+    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift; the magnitudes of a row add up to
+                             EL_DOT_MOST at most */
     int64_t offsets[3];   /* |offset| < 2^62 */
     int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
     int32_t far;          /* likewise, or INT32_MAX */
@@ -91,7 +96,7 @@ typedef struct el_clip_vertex {
     int32_t x, y, d, w;
 } el_clip_vertex;
 
-/* A vertex on the screen. Where code has a bit of EL_CODE_CLIP, only code is valid. */
+/* A vertex on the screen. Where code has a bit of EL_CODE_CLIP or EL_CODE_LATER, only code is valid. */
 typedef struct el_screen_vertex {
     el_coordinate x; /* right */
     el_coordinate y; /* down */
@@ -106,6 +111,13 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
 
 /* All of what follows for one mesh position. */
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
+
+/* The same, but a vertex outside the view is not projected: few of its triangles will ask for it. */
+void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
+
+/* That for `count` of them. */
+void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
+                           el_screen_vertex *screen);
 
 /* Where a clip vertex lies. */
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);

@@ -60,8 +60,9 @@ static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
         return el_ratio_q32(dx, dy);
     }
     const uint32_t reciprocal = el_reciprocal_of_short(dy);
-    return dx >= 0 ? (int64_t)el_multiply_u64(reciprocal, dx)
-                   : -(int64_t)el_multiply_u64((uint64_t)reciprocal + 1U, -dx);
+    const uint32_t aside = (uint32_t)(dx < 0 ? -dx : dx);
+    const uint64_t product = el_product_u32_u16(reciprocal, aside);
+    return dx < 0 ? -(int64_t)(product + aside) : (int64_t)product; /* with a unit more, to be rounded down too */
 }
 #endif
 #endif
@@ -78,7 +79,7 @@ static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x
 #if EL_SUBPIXEL_BITS == 4
     edge->step_q32 = el_edge_step_q32(dx, dy);
     /* (x0 - half + down dx / dy) / 16, rounded up; down < dy, so `down` steps are below 2^32 |dx| + 2^17 < 2^49. */
-    const int64_t aside = (int64_t)el_multiply_u64((uint64_t)edge->step_q32, down) >> EL_SUBPIXEL_BITS;
+    const int64_t aside = (int64_t)el_multiply_u16((uint64_t)edge->step_q32, (uint32_t)down) >> EL_SUBPIXEL_BITS;
     edge->x_q32 = (int64_t)((x0 - half) * (int64_t)(1 << (32 - EL_SUBPIXEL_BITS))) + aside + 0xFFFFFFFFLL;
 #else
     edge->step_q32 = el_wide_ratio_q32(dx, dy);

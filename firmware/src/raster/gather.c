@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/fixed.h"
 #include "base/rgb565.h"
 #include "raster/list.h"
 
@@ -28,10 +29,17 @@ static const uint8_t *base_colour(const el_draw_state *draw, uint16_t vertex)
     return draw->mesh->colours != NULL ? draw->mesh->colours[vertex] : draw->material->colour;
 }
 
-/* colour * light / 255, 8.8 */
+/* colour * light / 255, 8.8. Without a division: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
+ * (q + r) <= 65280. */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
-    return (uint16_t)((colour * light + 127U) / 255U);
+    const uint32_t n = colour * light + 127U;
+#if EL_SMALL_CODE
+    return (uint16_t)(n / 255U);
+#else
+    const uint32_t rest = (n >> 8) + (n & 255U);
+    return (uint16_t)((n >> 8) + ((rest + 1U + (rest >> 8)) >> 8));
+#endif
 }
 
 /* Three channels of 8.8 for one of the mesh's vertices. */
@@ -52,7 +60,13 @@ void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, ui
 static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turned)
 {
     const uint16_t *const vertices = draw->mesh->triangles[index];
-    const unsigned count = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? 3 : 1;
+    const bool mean = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0;
+    if (!EL_SMALL_CODE && !el_is_lit(draw->material) && (draw->mesh->triangle_colours != NULL || !mean)) {
+        const uint8_t *const own =
+            draw->mesh->triangle_colours != NULL ? draw->mesh->triangle_colours[index] : base_colour(draw, vertices[0]);
+        return el_rgb565(own[0], own[1], own[2]);
+    }
+    const unsigned count = mean ? 3 : 1;
     uint32_t sums[3] = {0, 0, 0};
     for (unsigned i = 0; i < count; i++) {
         uint16_t rgb_q8[3];
@@ -71,51 +85,87 @@ static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turn
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
 }
 
-/* 1/w of the corners in one unit, the largest in [2^30, 2^31). */
-static void gather_w(const el_record_perspective *record, el_corner corners[3])
+/* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
+static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const uint8_t shifts[3])
 {
-    unsigned shifts[3];
-    unsigned least = 31;
+    const int32_t least = el_min_i32(shifts[0], el_min_i32(shifts[1], shifts[2]));
     for (unsigned i = 0; i < 3; i++) {
-        shifts[i] = (record->w_shifts >> (5 * i)) & 31U;
-        least = shifts[i] < least ? shifts[i] : least;
-    }
-    for (unsigned i = 0; i < 3; i++) {
-        const uint32_t w = ((uint32_t)record->w[i] << 15) >> (shifts[i] - least);
-        corners[i].w = w == 0 ? 1U : w;
+        const uint32_t scaled = ((uint32_t)w[i] << 15) >> (shifts[i] - least);
+        corners[i].w = scaled == 0 ? 1U : scaled;
     }
 }
 
-void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
+/* Where the corners of a thin record are, as its vertices would have been listed. */
+static void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
 {
-    const el_run *const run = el_list_at(list, record->run);
-    const el_draw_state *const draw = &run->draw;
+    uint16_t w[3];
+    uint8_t shifts[3];
+    for (unsigned i = 0; i < 3; i++) {
+        el_screen_vertex v;
+        el_transform_vertex(&draw->transform, draw->mesh->positions[draw->mesh->triangles[record->index][i]], &v);
+        corners[i].x = v.x;
+        corners[i].y = v.y;
+        corners[i].z = v.z;
+        w[i] = v.w;
+        shifts[i] = v.w_shift;
+    }
+    if (el_has_texture(el_shading_of(draw))) {
+        scale_reciprocals(corners, w, shifts);
+    }
+}
+
+/* Where the corners are; of textured ones 1/w. */
+static void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind, el_corner corners[3])
+{
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        find_points(draw, record, corners);
+        return;
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        const el_point *const point = &record->at.points[i];
+        corners[i].x = point->x;
+        corners[i].y = point->y;
+        corners[i].z = point->z;
+    }
+    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
+        const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
+        uint8_t shifts[3];
+        for (unsigned i = 0; i < 3; i++) {
+            shifts[i] = (perspective->w_shifts >> (5 * i)) & 31U;
+        }
+        scale_reciprocals(corners, perspective->w, shifts);
+    }
+}
+
+/* Whether a two-sided triangle shows its back to the light. */
+static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
+{
+    if (!el_is_lit(draw->material) || (draw->material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
+        return false;
+    }
+    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
+    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
+    return el_shows_back(draw, el_doubled_area(x, y));
+}
+
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
+{
+    const el_record_kind kind = (el_record_kind)el_list_run(list, record)->kind;
+    const el_draw_state *const draw = el_list_draw(list, record);
     const el_shading shading = el_shading_of(draw);
     surface->shading = shading;
     surface->depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
     surface->dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0;
     surface->texture = draw->material->texture;
 
-    int32_t x[3];
-    int32_t y[3];
-    for (unsigned i = 0; i < 3; i++) {
-        const el_point *const point = &record->at.points[i];
-        corners[i].x = x[i] = point->x;
-        corners[i].y = y[i] = point->y;
-        corners[i].z = point->z;
-    }
-    const bool turned = el_is_lit(draw->material) && (draw->material->flags & EL_MATERIAL_TWO_SIDED) != 0 &&
-                        el_shows_back(draw, el_doubled_area(x, y));
-
-    if (EL_WITH_TEXTURE && run->kind != EL_RECORD_PLAIN) {
-        gather_w((const el_record_perspective *)(const void *)record, corners);
-    }
+    gather_points(draw, record, kind, corners);
+    const bool turned = is_turned(draw, corners);
     if (shading == EL_SHADE_FLAT) {
         surface->colour = flat_colour(draw, record->index, turned);
     }
     for (unsigned i = 0; i < 3 && (el_has_texture(shading) || el_has_colours(shading)); i++) {
         el_corner *const corner = &corners[i];
-        if (run->kind == EL_RECORD_CLIPPED) {
+        if (kind == EL_RECORD_CLIPPED) {
             const el_attributes *const own = &((const el_record_clipped *)(const void *)record)->attributes[i];
             corner->u_q16 = own->u_q16;
             corner->v_q16 = own->v_q16;
@@ -131,4 +181,5 @@ void el_list_gather(const el_list *list, const el_record *record, el_corner corn
             el_shade_vertex(draw, vertex, turned, corner->rgb_q8);
         }
     }
+    return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }

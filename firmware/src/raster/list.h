@@ -1,10 +1,14 @@
 /* The display list: the triangles of a pass, binned by the band in which they begin.
  *
- * Runs follow each other in one block of memory, in the order of submission: a run is a header (what was drawn, how) and
- * its records, one per triangle, all of one kind. A record holds the snapped corners only; colours and texture
- * coordinates stay in the mesh until the triangle is set up. That costs 24 or 32 bytes (48 or 56 with more than 4 sub-pixel bits) per visible
- * triangle and nothing
- * for those that are not. Triangles that were cut carry their own attributes.
+ * Runs follow each other in one block of memory, in the order of submission: a run is a header and its records, one per
+ * triangle, all of one kind; the first run of a draw call has the call's state behind its header. A record holds the
+ * snapped corners only; colours and texture coordinates stay in the mesh until the triangle is set up. That costs 24 or
+ * 32 bytes (48 or 56 with more than 4 sub-pixel bits) per visible triangle and nothing for those that are not. Triangles
+ * that were cut carry their own attributes.
+ *
+ * A list that is full can be made thin: its whole triangles keep 8 bytes each, and their vertices are transformed again
+ * when they are set up, by the same function from the same numbers. Three times as many triangles fit, which saves
+ * passes, and each pass looks at every vertex of the scene.
  *
  * Records are named by their offset in units of 8 bytes, so a later record has a larger name: comparing names compares
  * the order of submission, which decides ties in depth. A bin is a circular list, named by its last record, so that
@@ -13,8 +17,10 @@
 #define EL_RASTER_LIST_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
+#include "geometry/transform.h"
 #include "raster/material.h"
 #include "raster/triangle.h"
 
@@ -25,13 +31,15 @@ extern "C" {
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
 
 typedef enum el_record_kind {
+    EL_RECORD_THIN,        /* the first EL_THIN_BYTES of an el_record */
     EL_RECORD_PLAIN,       /* el_record */
+    EL_RECORD_CUT,         /* el_record of a part of a triangle */
     EL_RECORD_PERSPECTIVE, /* el_record_perspective */
-    EL_RECORD_CLIPPED,     /* el_record_clipped */
+    EL_RECORD_CLIPPED,     /* el_record_clipped of a part of a triangle */
     EL_RECORD_KINDS
 } el_record_kind;
 
-/* What the triangles of a run have in common. */
+/* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
     const el_mesh *mesh;
     const el_material *material;
@@ -41,7 +49,10 @@ typedef struct el_draw_state {
     uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
     uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */
 #endif
+    el_transform transform; /* with which vertices of thin records are found again; the list keeps none without these */
 } el_draw_state;
+
+enum { EL_DRAW_STATE_BYTES = EL_WITH_THIN ? sizeof(el_draw_state) : offsetof(el_draw_state, transform) };
 
 /* How the draw's triangles are shaded. */
 static inline el_shading el_shading_of(const el_draw_state *draw)
@@ -61,9 +72,9 @@ static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area
 }
 
 typedef struct el_run {
-    el_draw_state draw;
+    uint16_t draw; /* its el_draw_state, behind this header or behind an earlier one's */
     uint16_t count;
-    uint8_t kind;
+    uint8_t kind; /* el_record_kind */
 } el_run;
 
 typedef struct el_point {
@@ -78,10 +89,11 @@ typedef struct el_record {
     union {
         el_point points[3];
         uint16_t state; /* of an active triangle: its el_triangle */
+        int16_t row;    /* of a thin one: the first row with a pixel centre inside */
     } at;
 } el_record;
 
-enum { EL_INDEX_ACTIVE = 0xFFFF };
+enum { EL_INDEX_ACTIVE = 0xFFFF, EL_THIN_BYTES = offsetof(el_record, at) + sizeof(int16_t) };
 
 typedef struct el_record_perspective {
     el_record record;
@@ -103,10 +115,13 @@ typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    uint8_t *base;  /* 8-byte aligned */
-    uint32_t end;   /* bytes that may be used now */
-    uint32_t used;  /* bytes */
-    uint16_t *bins; /* last record of each band; 0: none */
+    bool is_thin;           /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    uint8_t *base;          /* 8-byte aligned */
+    uint32_t end;           /* bytes that may be used now */
+    uint32_t used;          /* bytes */
+    uint16_t *bins;         /* last record of each band; 0: none */
+    uint64_t rows_to_bands; /* unless EL_SMALL_CODE: 2^32 / band_lines, rounded up: a product instead of a division,
+                               exact for rows < 2^16 */
 } el_list;
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
@@ -114,9 +129,19 @@ static inline void *el_list_at(const el_list *list, uint16_t name)
     return list->base + (uint32_t)name * EL_LIST_UNIT;
 }
 
+static inline const el_run *el_list_run(const el_list *list, const el_record *record)
+{
+    return (const el_run *)el_list_at(list, record->run);
+}
+
 static inline const el_draw_state *el_list_draw(const el_list *list, const el_record *record)
 {
-    return &((const el_run *)el_list_at(list, record->run))->draw;
+    return (const el_draw_state *)el_list_at(list, el_list_run(list, record)->draw);
+}
+
+static inline bool el_list_is_thin(const el_list *list)
+{
+    return EL_WITH_THIN && list->is_thin;
 }
 
 /* `memory` is 8-byte aligned; `bins` holds `bin_count` entries. */
@@ -125,19 +150,24 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
 /* Empties the list and its bins. */
 void el_list_clear(el_list *list);
 
-/* The next record belongs to a run of its own. */
-static inline void el_list_end_run(el_list *list)
+/* The next record belongs to another draw call. */
+static inline void el_list_end_draw(el_list *list)
 {
     list->run = 0;
 }
 
-/* Appends a record of that kind to the bin of the band that has screen row `row`, opening a run for `draw` if the last
- * one is of another kind or has ended. Its run and next are set; the caller fills in the rest. NULL when it is full. */
+/* Appends a record of that kind to the bin of the band that has screen row `row`, opening a run if the last one is of
+ * another kind, and for `draw` if the last draw call has ended. Its run and next are set; the caller fills in the rest.
+ * NULL when it is full. */
 el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row);
 
 /* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
  * the bin of row_begin. The run that takes records stays open. */
 void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end);
+
+/* With EL_WITH_THIN: makes the records of all whole triangles thin and closes the gaps. Triangles that begin above
+ * `row_begin` stay in its bin. */
+void el_list_make_thin(el_list *list, int32_t row_begin);
 
 /* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */
 uint16_t el_list_take_bin(el_list *list, uint16_t band);
@@ -145,8 +175,9 @@ uint16_t el_list_take_bin(el_list *list, uint16_t band);
 /* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
 
-/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. */
-void el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
+ * vertices it transformed for that. */
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
 
 #ifdef __cplusplus
 }

@@ -7,10 +7,11 @@ EL_INLINE_HERE uint64_t el_plane_times(uint64_t gradient, int32_t count);
 EL_INLINE_HERE int64_t el_doubled_area(const int32_t x[3], const int32_t y[3]);
 /* NOLINTEND(readability-redundant-declaration) */
 
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
-static inline bool within_small(int32_t difference)
+#if EL_SUBPIXEL_BITS == 4
+/* Negative where |difference| is more than EL_SMALL_SUB. */
+static inline int32_t room_within_small(int32_t difference)
 {
-    return (uint32_t)(difference + EL_SMALL_SUB) <= 2U * EL_SMALL_SUB;
+    return (EL_SMALL_SUB - difference) | (EL_SMALL_SUB + difference);
 }
 #endif
 
@@ -24,9 +25,9 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
     frame->dy2 = y[2] - y[0];
     const int64_t area = el_doubled_area(x, y);
     frame->sign = area < 0 ? -1 : 1;
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
-    frame->small =
-        within_small(frame->dx1) && within_small(frame->dy1) && within_small(frame->dx2) && within_small(frame->dy2);
+#if EL_SUBPIXEL_BITS == 4
+    frame->small = (room_within_small(frame->dx1) | room_within_small(frame->dy1) | room_within_small(frame->dx2) |
+                    room_within_small(frame->dy2)) >= 0;
 #else
     frame->small = false;
 #endif
@@ -73,34 +74,52 @@ typedef struct gradient {
     uint64_t dx, dy, offset;
 } gradient;
 
-static void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int64_t d1, int64_t d2,
-                          unsigned fraction_bits)
+/* `by_parts`: quotients per sub-pixel, truncated at 2^-32, and a pixel is EL_SUBPIXELS of them. The sums over the 1023
+ * sub-pixels of a small triangle are off by less than 2^-20, where 2^-19 may be. */
+static inline void wide_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int64_t d1, int64_t d2,
+                                 unsigned fraction_bits, bool by_parts)
 {
     /* With S sub-pixels and F extra bits of fraction, differences are below 2^(32 + F) and heights and widths below
      * 2^12 S: |a|, |b| < 2^(45 + F) S, and per pixel, times S, below 2^(45 + F) S^2: 2^61 for S = 16 and F = 8 as for
      * S = 256 and F = 0. */
     const int64_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
     const int64_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
-    g->dx = divide(a * EL_SUBPIXELS, fraction_bits, &frame->area);
-    g->dy = divide(b * EL_SUBPIXELS, fraction_bits, &frame->area);
-    g->offset = divide(a * at->to_centre_x + b * at->to_centre_y, fraction_bits, &frame->area);
+    const int32_t length = by_parts ? 1 : EL_SUBPIXELS;
+    const int64_t dividends[3] = {a * length, b * length, a * at->to_centre_x + b * at->to_centre_y};
+    uint64_t quotients[3];
+    for (unsigned i = 0; i < 3; i++) {
+        quotients[i] = divide(dividends[i], fraction_bits, &frame->area);
+    }
+    *g = (gradient){.dx = quotients[0], .dy = quotients[1], .offset = quotients[2]};
+    if (by_parts) {
+        g->offset = el_multiply_u64(g->dx, at->to_centre_x) + el_multiply_u64(g->dy, at->to_centre_y);
+        g->dx <<= EL_SUBPIXEL_BITS;
+        g->dy <<= EL_SUBPIXEL_BITS;
+    }
 }
 
-/* The same quotients, in 32 bits. */
+/* Of values below 2^16: by parts where the triangle is small; in 32 bits then, with two divisions instead of three,
+ * unless the code is to be small. */
 static void small_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int32_t d1, int32_t d2)
 {
-#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+#if EL_SMALL_CODE
+    wide_gradient(g, frame, at, d1, d2, 0, frame->small);
+#else
+#if EL_SUBPIXEL_BITS == 4
     if (frame->small) {
-        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27, and 16 times that below 2^31. */
+        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27. */
         const int32_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
         const int32_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
-        g->dx = el_divide_i32_q32(a * EL_SUBPIXELS, &frame->area);
-        g->dy = el_divide_i32_q32(b * EL_SUBPIXELS, &frame->area);
-        g->offset = el_divide_i32_q32(a * at->to_centre_x + b * at->to_centre_y, &frame->area);
+        const uint64_t per_x = el_divide_i32_q32(a, &frame->area);
+        const uint64_t per_y = el_divide_i32_q32(b, &frame->area);
+        g->dx = per_x << EL_SUBPIXEL_BITS;
+        g->dy = per_y << EL_SUBPIXEL_BITS;
+        g->offset = el_multiply_u64(per_x, at->to_centre_x) + el_multiply_u64(per_y, at->to_centre_y);
         return;
     }
 #endif
-    wide_gradient(g, frame, at, d1, d2, 0);
+    wide_gradient(g, frame, at, d1, d2, 0, false);
+#endif
 }
 
 static void start_plane(el_plane *plane, const el_plane_frame *frame, const anchor *at, const gradient *g,
@@ -115,7 +134,7 @@ void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t v
 {
     const anchor at = anchor_of(frame);
     gradient g;
-    wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], fraction_bits);
+    wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], fraction_bits, false);
     start_plane(plane, frame, &at, &g, (uint64_t)values[0] << (32U - fraction_bits));
 }
 

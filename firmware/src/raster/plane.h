@@ -55,7 +55,8 @@ typedef struct el_plane_frame {
     el_area area;
 } el_plane_frame;
 
-/* With values below 2^16, 16 * (2^16 - 1) * 2 * 1023 < 2^31. */
+/* With values below 2^16, (2^16 - 1) * 2 * 1023 < 2^31, and quotients per sub-pixel are off by less than 2 * 1023 units of
+ * 2^-32 in sum. */
 enum { EL_SMALL_SUB = EL_SUBPIXEL_BITS == 4 ? 1023 : -1 };
 
 /* Corners in 1/EL_SUBPIXELS px, not in a line. x, row and step are the caller's to set. */

@@ -1,15 +1,8 @@
 /* The loops: rows of a triangle, pixels of a span. Each shading, with and without depth, is the same code with its
- * choices made at compile time, so that none pays for another. */
+ * choices made at compile time, so that none pays for another; in small code one loop asks, in half the memory. */
 #include "base/dither.h"
 #include "raster/texture_walk.h"
 #include "raster/triangle.h"
-
-/* Each loop is compiled anew with its choices known, where speed counts; one loop that asks takes half the memory. */
-#if EL_SMALL_CODE
-#define SPECIALISED inline
-#else
-#define SPECIALISED inline __attribute__((always_inline))
-#endif
 
 /* Rounding to nearest at the end is made once, at the start of a span. Depth gets the bound of its plane's error more than
  * its half (plane.h): values exactly between two units, which truncated gradients leave a little too low, are rounded up like
@@ -35,7 +28,7 @@ enum {
     DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
 };
 
-static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
+static EL_SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped, unsigned kind)
 {
     span s;
     if ((kind & DEPTH) != 0) {
@@ -56,7 +49,7 @@ static SPECIALISED span span_begin(const el_triangle *triangle, int32_t skipped,
     return s;
 }
 
-static SPECIALISED void span_step(span *s, unsigned kind)
+static EL_SPECIALISED void span_step(span *s, unsigned kind)
 {
     if ((kind & DEPTH) != 0) {
         s->z += s->z_step;
@@ -68,35 +61,51 @@ static SPECIALISED void span_step(span *s, unsigned kind)
     }
 }
 
-static SPECIALISED uint16_t texel_at(const el_texture *texture, uint32_t u_q16, uint32_t v_q16)
+/* Where a texture's texels are: masks for the whole parts of u and v, which repeat it, the latter already times the
+ * width. A copy, because a compiler must assume that a pixel written may lie in the texture's own description. */
+typedef struct texel_source {
+    const uint16_t *texels;
+    uint32_t u_mask, v_mask;
+    unsigned v_down; /* from Q16 to whole texels times the width */
+} texel_source;
+
+static EL_SPECIALISED texel_source source_of(const el_texture *texture)
 {
-    const uint32_t column = (u_q16 >> 16) & ((1U << texture->width_log2) - 1U);
-    const uint32_t line = (v_q16 >> 16) & ((1U << texture->height_log2) - 1U);
-    return texture->texels[(line << texture->width_log2) + column];
+    return (texel_source){
+        .texels = texture->texels,
+        .u_mask = (1U << texture->width_log2) - 1U,
+        .v_mask = ((1U << texture->height_log2) - 1U) << texture->width_log2,
+        .v_down = 16U - texture->width_log2,
+    };
+}
+
+static EL_SPECIALISED uint32_t texel_at(const texel_source *source, uint32_t u_q16, uint32_t v_q16)
+{
+    return source->texels[((v_q16 >> source->v_down) & source->v_mask) | ((u_q16 >> 16) & source->u_mask)];
 }
 
 /* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
  * by the smallest threshold. */
-static SPECIALISED uint32_t fraction_q16(uint32_t plus_half_q24)
+static EL_SPECIALISED uint32_t fraction_q16(uint32_t plus_half_q24)
 {
     return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
 }
 
 /* A channel of a texel times light / 255, where 255 leaves it as it is. */
-static SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
 {
     return (kind & DITHER) != 0 ? el_dither(fraction_q16(light), channel, threshold_q16)
                                 : (channel * ((light >> 24) + 1U)) >> 8;
 }
 
-static SPECIALISED uint16_t modulate(uint32_t texel, const span *s, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint16_t modulate(uint32_t texel, const span *s, uint32_t threshold_q16, unsigned kind)
 {
     return (uint16_t)(lit(texel >> 11, s->red, threshold_q16, kind) << 11 |
                       lit((texel >> 5) & 63U, s->green, threshold_q16, kind) << 5 |
                       lit(texel & 31U, s->blue, threshold_q16, kind));
 }
 
-static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsigned kind)
+static EL_SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsigned kind)
 {
     if ((kind & DITHER) != 0) {
         return (uint16_t)(el_dither(fraction_q16(s->red), 31, threshold_q16) << 11 |
@@ -106,17 +115,17 @@ static SPECIALISED uint16_t coloured(const span *s, uint32_t threshold_q16, unsi
     return (uint16_t)((s->red >> 27 << 11) | (s->green >> 26 << 5) | s->blue >> 27);
 }
 
-/* Whether the pixel is drawn; its depth is stored then. */
-static SPECIALISED bool passes(const span *s, uint16_t *depth, unsigned kind)
+/* Whether the pixel at depth[i] is drawn; its depth is stored then. Without DEPTH there may be no such array. */
+static EL_SPECIALISED bool passes(const span *s, uint16_t *depth, int32_t i, unsigned kind)
 {
     if ((kind & DEPTH) == 0) {
         return true;
     }
     const uint32_t z = (uint32_t)(s->z >> 32); /* 0..65535: the plane stays within its corners' range */
-    if (z >= *depth) {
+    if (z >= depth[i]) {
         return false;
     }
-    *depth = (uint16_t)z;
+    depth[i] = (uint16_t)z;
     return true;
 }
 
@@ -129,15 +138,15 @@ typedef struct row {
 } row;
 
 /* In one colour or in the vertices' colours. Counting up to 0 from the row's end leaves one number to step. */
-static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
+static EL_SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsigned kind)
 {
     span s = span_begin(triangle, r.skipped, kind);
     const uint16_t flat = triangle->surface.colour;
     uint16_t *const colour = r.colour + r.x_end;
-    uint16_t *const depth = r.depth + r.x_end;
+    uint16_t *const depth = r.depth + ((kind & DEPTH) != 0 ? r.x_end : 0);
     const uint32_t y = (uint32_t)triangle->y;
     for (int32_t i = r.x - r.x_end; i < 0; i++) {
-        if (passes(&s, &depth[i], kind)) {
+        if (passes(&s, depth, i, kind)) {
             colour[i] =
                 (kind & COLOURS) != 0 ? coloured(&s, el_dither_threshold_q16((uint32_t)(r.x_end + i), y), kind) : flat;
         }
@@ -146,34 +155,39 @@ static SPECIALISED void draw_coloured(const el_triangle *triangle, row r, unsign
 }
 
 /* With a texture, in pieces along which texture coordinates are linear. */
-static SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
+static EL_SPECIALISED void draw_textured(const el_triangle *triangle, row r, unsigned kind)
 {
     span s = span_begin(triangle, r.skipped, kind);
+    const texel_source source = source_of(triangle->surface.texture);
+    const uint32_t y = (uint32_t)triangle->y;
     el_texture_walk walk;
     el_texture_walk_begin(&walk, triangle, r.skipped);
     int32_t x = r.x;
     while (x < r.x_end) {
-        const int32_t length = el_texture_walk_piece(&walk, triangle, r.x_end - x);
+        const int32_t length = el_texture_walk_piece(&walk, r.x_end - x);
+        x += length;
+        uint16_t *const colour = r.colour + x;
+        uint16_t *const depth = r.depth + ((kind & DEPTH) != 0 ? x : 0);
         uint32_t u_q16 = (uint32_t)walk.u_q16;
         uint32_t v_q16 = (uint32_t)walk.v_q16;
-        for (const int32_t piece_end = x + length; x < piece_end; x++) {
-            if (passes(&s, &r.depth[x], kind)) {
-                const uint32_t texel = texel_at(triangle->surface.texture, u_q16, v_q16);
-                r.colour[x] =
-                    (kind & COLOURS) != 0
-                        ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)x, (uint32_t)triangle->y), kind)
-                        : (uint16_t)texel;
+        const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
+        const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
+        for (int32_t i = -length; i < 0; i++) {
+            if (passes(&s, depth, i, kind)) {
+                const uint32_t texel = texel_at(&source, u_q16, v_q16);
+                colour[i] = (kind & COLOURS) != 0
+                                ? modulate(texel, &s, el_dither_threshold_q16((uint32_t)(x + i), y), kind)
+                                : (uint16_t)texel;
             }
             span_step(&s, kind);
-            u_q16 += (uint32_t)walk.u_step_q16;
-            v_q16 += (uint32_t)walk.v_step_q16;
+            u_q16 += u_step_q16;
+            v_q16 += v_step_q16;
         }
-        el_texture_walk_next(&walk, triangle, length);
     }
 }
 
 /* Overdraw: the picture counts. */
-static SPECIALISED void draw_count(row r)
+static EL_SPECIALISED void draw_count(row r)
 {
     for (int32_t x = r.x; x < r.x_end; x++) {
         r.colour[x]++;
@@ -181,11 +195,11 @@ static SPECIALISED void draw_count(row r)
 }
 
 /* The picture counts what the depth test rejects. */
-static SPECIALISED void draw_rejected(const el_triangle *triangle, row r)
+static EL_SPECIALISED void draw_rejected(const el_triangle *triangle, row r)
 {
     span s = span_begin(triangle, r.skipped, DEPTH);
     for (int32_t x = r.x; x < r.x_end; x++) {
-        if (!passes(&s, &r.depth[x], DEPTH)) {
+        if (!passes(&s, r.depth, x, DEPTH)) {
             r.colour[x]++;
         }
         span_step(&s, DEPTH);
@@ -193,7 +207,7 @@ static SPECIALISED void draw_rejected(const el_triangle *triangle, row r)
 }
 
 /* A plane's way along the left edge: its whole step, and a pixel more where its fraction ran over. */
-static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
+static EL_SPECIALISED void plane_next_row(el_plane *plane, bool carry)
 {
     plane->value += plane->down;
     if (carry) {
@@ -201,12 +215,12 @@ static SPECIALISED void plane_next_row(el_plane *plane, bool carry)
     }
 }
 
-static SPECIALISED void channel_next_row(el_channel *channel, bool carry)
+static EL_SPECIALISED void channel_next_row(el_channel *channel, bool carry)
 {
     channel->value += channel->down + (carry ? channel->dx : 0U);
 }
 
-static SPECIALISED void next_row(el_triangle *triangle, unsigned kind)
+static EL_SPECIALISED void next_row(el_triangle *triangle, unsigned kind)
 {
     const uint32_t fraction = (uint32_t)triangle->left.x_q32;
     el_edge_next_row(&triangle->left);
@@ -257,7 +271,7 @@ static void bend(el_triangle *triangle, unsigned kind)
     }
 }
 
-static SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+static EL_SPECIALISED void draw_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     const int32_t y_end = triangle->y_end < target->y_end ? triangle->y_end : target->y_end;
     const int32_t width = target->width;
@@ -315,32 +329,47 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
     draw_rows(triangle, target, stats, kind_of(&triangle->surface));
 }
 #else
-/* A loop of its own for each kind there is; kinds that options.h makes equal have one. */
-#define DRAW(kind)                                                                                                     \
-    if (asked == (kind)) {                                                                                             \
+#if EL_WITH_DEBUG_VIEWS
+#define REJECTED(DO) DO(rejected, COUNT | DEPTH)
+#else
+#define REJECTED(DO)
+#endif
+
+/* A loop of its own for each kind there is, in a function of its own, so that none has the registers of another; kinds
+ * that options.h makes equal have one. */
+#define LOOPS(DO)                                                                                                      \
+    DO(flat, 0)                                                                                                        \
+    DO(flat_depth, DEPTH)                                                                                              \
+    DO(coloured, COLOURS)                                                                                              \
+    DO(coloured_depth, COLOURS | DEPTH)                                                                                \
+    DO(dithered, COLOURS | DITHER)                                                                                     \
+    DO(dithered_depth, COLOURS | DITHER | DEPTH)                                                                       \
+    DO(textured, TEXTURE)                                                                                              \
+    DO(textured_depth, TEXTURE | DEPTH)                                                                                \
+    DO(lit, TEXTURE | COLOURS)                                                                                         \
+    DO(lit_depth, TEXTURE | COLOURS | DEPTH)                                                                           \
+    DO(lit_dithered, TEXTURE | COLOURS | DITHER)                                                                       \
+    DO(lit_dithered_depth, TEXTURE | COLOURS | DITHER | DEPTH)                                                         \
+    DO(count, COUNT)                                                                                                   \
+    REJECTED(DO)
+
+#define DEFINE(name, kind)                                                                                             \
+    static __attribute__((noinline)) void rows_##name(el_triangle *triangle, const el_target *target, el_stats *stats) \
+    {                                                                                                                  \
         draw_rows(triangle, target, stats, (kind));                                                                    \
+    }
+LOOPS(DEFINE)
+
+#define CALL(name, kind)                                                                                               \
+    if (asked == (kind)) {                                                                                             \
+        rows_##name(triangle, target, stats);                                                                          \
         return;                                                                                                        \
     }
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
     const unsigned asked = kind_of(&triangle->surface);
-    DRAW(0)
-    DRAW(DEPTH)
-    DRAW(COLOURS)
-    DRAW(COLOURS | DEPTH)
-    DRAW(COLOURS | DITHER)
-    DRAW(COLOURS | DITHER | DEPTH)
-    DRAW(TEXTURE)
-    DRAW(TEXTURE | DEPTH)
-    DRAW(TEXTURE | COLOURS)
-    DRAW(TEXTURE | COLOURS | DEPTH)
-    DRAW(TEXTURE | COLOURS | DITHER)
-    DRAW(TEXTURE | COLOURS | DITHER | DEPTH)
-    DRAW(COUNT)
-#if EL_WITH_DEBUG_VIEWS
-    DRAW(COUNT | DEPTH)
-#endif
+    LOOPS(CALL)
 }
 #endif
 
@@ -376,11 +405,10 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
     el_texture_walk walk;
     el_texture_walk_begin(&walk, triangle, begin - left);
     int32_t at = begin;
-    int32_t length = el_texture_walk_piece(&walk, triangle, end - at);
+    int32_t length = el_texture_walk_piece(&walk, end - at);
     while (x >= at + length) {
-        el_texture_walk_next(&walk, triangle, length);
         at += length;
-        length = el_texture_walk_piece(&walk, triangle, end - at);
+        length = el_texture_walk_piece(&walk, end - at);
     }
     sample->u_q16 = walk.u_q16 + (x - at) * walk.u_step_q16;
     sample->v_q16 = walk.v_q16 + (x - at) * walk.v_step_q16;

@@ -7,7 +7,7 @@ enum {
     LENGTHS = 13,
     STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
     NEVER_Q8 = 1 << 20,
-    /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 2^-16 texel and steps are cut off
+    /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 3 * 2^-16 texel and steps are cut off
      * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
     ROUNDING_RESERVE_Q8 = 24
 };
@@ -25,11 +25,16 @@ static const uint16_t log2_q8[129] = {
     193, 194, 196, 198, 200, 201, 203, 205, 206, 208, 209, 211, 213, 214, 216, 218, 219, 221, 222, 224, 225, 227,
     229, 230, 232, 233, 235, 236, 238, 239, 241, 242, 244, 245, 247, 248, 250, 251, 253, 254, 256};
 
-/* log2 x rounded down; x >= 1. */
-static int32_t log2_floor_q8(uint32_t x)
+/* log2 x rounded down, of an x >= 1 moved up by its leading zeros. */
+static inline int32_t log2_of_normalised_q8(uint32_t x, unsigned leading)
 {
-    const int leading = __builtin_clz(x);
-    return (31 - leading) * 256 + log2_q8[((x << leading) >> 24) & 127U];
+    return (31 - (int32_t)leading) * 256 + log2_q8[(x >> 24) & 127U];
+}
+
+static inline int32_t log2_floor_q8(uint32_t x)
+{
+    const unsigned leading = (unsigned)__builtin_clz(x);
+    return log2_of_normalised_q8(x << leading, leading);
 }
 
 /* log2 x rounded up; x >= 1. */
@@ -39,44 +44,54 @@ static int32_t log2_ceil_q8(uint64_t x)
     return (63 - leading) * 256 + log2_q8[(((x << leading) >> 56) & 127U) + 1U] + 1;
 }
 
-/* 1/w at a value of its plane; at covered pixels it lies between the corners', which are 1 at least. */
-static uint32_t whole(uint64_t w_q32)
+/* The upper word of x << shift, shift <= 31. */
+static inline uint32_t upper_word(uint64_t x, unsigned shift)
 {
-    const uint32_t w = (uint32_t)(w_q32 >> 32);
-    return w == 0 ? 1U : w;
+    return (uint32_t)(x >> 32) << shift | (uint32_t)x >> 1 >> (31U - shift);
 }
 
-/* base + (numerator << shift) / w, Q16 texels, rounded down: the numerator with all of its fraction over the upper 32 bits
- * of 1/w, which `w` has normalised by `w_shift`. At covered pixels the quotient lies within the corners' range, below
- * 2^28, so numerator << (shift + w_shift - 32), which is the quotient times 32 bits, stays below 2^60. */
-static int32_t knot(uint64_t numerator_q32, uint8_t shift, int32_t base_q16, const el_divisor *w, int w_shift)
+/* base + 2^shift U / W in Q16 texels, off by less than 3 units. |U| <= W < 2^31, so with both moved up by W's leading
+ * zeros, at least one, U fits 33 bits; 31 of them and the sign are kept, and their product with 2^63 / W is 2^30 U / W,
+ * off by less than 3 for what is cut off and EL_RECIPROCAL_ERROR / 2 for the reciprocal: less than 2 units of the result,
+ * whose shift is at most 27, and one is cut off again. */
+static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal, uint8_t shift, int32_t base_q16)
 {
-    const int total = shift + w_shift - 32;
-    const int64_t numerator = total >= 0 ? (int64_t)(numerator_q32 << total) : (int64_t)numerator_q32 >> -total;
-    return (int32_t)((uint32_t)base_q16 + (uint32_t)el_divide_floor_i64(numerator, w));
+    const int32_t upper = (int32_t)upper_word(u_q32, w_shift - 1U);
+    const int32_t ratio_q30 = el_multiply_high_i32_u32(upper, reciprocal);
+    return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> (30 - shift)));
 }
 
-/* u and v `pixels` after the walk's position. */
-static void exact(const el_texture_walk *walk, const el_triangle *triangle, uint32_t pixels, int32_t *u_q16,
-                  int32_t *v_q16)
+/* Moves the planes' values to the right. */
+static inline void go_on(el_texture_walk *walk, uint32_t pixels)
 {
-    const el_perspective *const p = &triangle->perspective;
-    const uint64_t w_q32 = walk->w + p->w.dx * pixels;
-    const int w_shift = w_q32 == 0 ? 0 : __builtin_clzll(w_q32);
-    const el_divisor w = el_divisor_make((uint32_t)((w_q32 << w_shift) >> 32) | (1U << 31));
-    *u_q16 = knot(walk->u + p->u.dx * pixels, p->u_shift, p->u_base_q16, &w, w_shift);
-    *v_q16 = knot(walk->v + p->v.dx * pixels, p->v_shift, p->v_base_q16, &w, w_shift);
+    const el_perspective *const p = walk->planes;
+    walk->w += el_multiply_u16(p->w.dx, pixels);
+    walk->u += el_multiply_u16(p->u.dx, pixels);
+    walk->v += el_multiply_u16(p->v.dx, pixels);
+}
+
+/* u and v where the planes' values are. */
+static inline void find_knot(el_texture_walk *walk)
+{
+    const el_perspective *const p = walk->planes;
+    const unsigned w_shift = (unsigned)__builtin_clz((uint32_t)(walk->w >> 32));
+    const uint32_t normalised = upper_word(walk->w, w_shift);
+    const uint32_t reciprocal = el_reciprocal_near(normalised);
+    walk->w_log2_q8 = log2_of_normalised_q8(normalised, w_shift);
+    walk->next_u_q16 = knot(walk->u, w_shift, reciprocal, p->u_shift, p->u_base_q16);
+    walk->next_v_q16 = knot(walk->v, w_shift, reciprocal, p->v_shift, p->v_base_q16);
 }
 
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
- * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the fraction moves J by less than
- * W + |U|. */
+ * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the gradients' fraction moves J by less
+ * than W + |U| <= 2 W, cutting off that of U and W by less than |U'| + |W'|. */
 static int32_t curvature_q8(uint64_t value_q32, const el_plane *plane, int32_t w, int32_t w_step_q4, uint8_t shift)
 {
     const int32_t value = (int32_t)(uint32_t)(value_q32 >> 32);
     const int32_t step_q4 = (int32_t)((int64_t)plane->dx >> 28);
-    const int64_t j_q4 = (int64_t)step_q4 * w - (int64_t)value * w_step_q4;
-    const uint64_t bound_q4 = el_abs_u64(j_q4) + (uint32_t)w + el_abs_u64(value);
+    const int64_t j_q4 = el_product_i32(step_q4, w) - el_product_i32(value, w_step_q4);
+    const uint64_t cut_off_q4 = el_abs_u64(step_q4) + el_abs_u64(w_step_q4) + 2U * ((uint64_t)(uint32_t)w + 1U);
+    const uint64_t bound_q4 = el_abs_u64(j_q4) + cut_off_q4;
     return log2_ceil_q8(bound_q4) + shift * 256;
 }
 
@@ -88,13 +103,15 @@ static bool is_steep(const el_plane *plane)
 void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t skipped)
 {
     const el_perspective *const p = &triangle->perspective;
-    walk->w = p->w.value + el_plane_times(p->w.dx, skipped);
-    walk->u = p->u.value + el_plane_times(p->u.dx, skipped);
-    walk->v = p->v.value + el_plane_times(p->v.dx, skipped);
+    walk->planes = p;
+    walk->w = p->w.value + EL_W_MARGIN_Q32;
+    walk->u = p->u.value;
+    walk->v = p->v.value;
+    if (skipped != 0) {
+        go_on(walk, (uint32_t)skipped);
+    }
     walk->length = LENGTHS - 1;
-    exact(walk, triangle, 0, &walk->u_q16, &walk->v_q16);
-    walk->next_u_q16 = walk->u_q16;
-    walk->next_v_q16 = walk->v_q16;
+    find_knot(walk);
     walk->u_step_q16 = 0;
     walk->v_step_q16 = 0;
 
@@ -103,7 +120,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
     } else if (is_steep(&p->w) || is_steep(&p->u) || is_steep(&p->v)) {
         walk->limit_q8 = NEVER_Q8;
     } else {
-        const int32_t w = (int32_t)whole(walk->w);
+        const int32_t w = (int32_t)(uint32_t)(walk->w >> 32);
         const int32_t w_step_q4 = (int32_t)((int64_t)p->w.dx >> 28);
         const int32_t curvature = el_max_i32(curvature_q8(walk->u, &p->u, w, w_step_q4, p->u_shift),
                                              curvature_q8(walk->v, &p->v, w, w_step_q4, p->v_shift));
@@ -111,68 +128,86 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
         /* 4 bits of fraction twice, 16 bits of u and v. */
         const int32_t product_q8 = curvature + w_step - (4 + 4 + 16) * 256;
         const int32_t error_q8 = -(int32_t)triangle->surface.uv_error_log2 * 256;
-        /* Rounded up; the constant keeps the dividend positive, so that the division does. */
+        /* A third, rounded up: the constant keeps the dividend positive, 26,138 is the most and -6,374 the least that it can
+         * be without, and for less than 2^16 the product is the quotient. */
         const int32_t three = product_q8 - 2 * 256 - error_q8 + ROUNDING_RESERVE_Q8;
-        walk->limit_q8 = (int32_t)((uint32_t)(three + 3 * NEVER_Q8 + 2) / 3U) - NEVER_Q8;
+        walk->limit_q8 = (int32_t)((uint32_t)(three + 3 * 4096 + 2) * 0xAAABU >> 17) - 4096;
     }
 }
 
-/* Truncated towards zero. */
-static int32_t step_of(int32_t way_q16, int32_t pixels)
+/* 2^32 / length, rounded up; length >= 2. */
+#if EL_SMALL_CODE
+static uint32_t reciprocal_of(int32_t length)
 {
-#if EL_SMALL_CODE || defined(__ARM_ARCH_6M__)
-    /* Without a divider, by the unsigned division that the rest of the renderer has too. */
-    const uint32_t step = (way_q16 < 0 ? 0U - (uint32_t)way_q16 : (uint32_t)way_q16) / (uint32_t)pixels;
-    return way_q16 < 0 ? -(int32_t)step : (int32_t)step;
+    return 0xFFFFFFFFU / (uint32_t)length + 1U;
+}
 #else
-    return way_q16 / pixels;
+static const uint32_t reciprocals[EL_MAX_PIECE + 1] = {
+    0,          0,          2147483648U, 1431655766U, 1073741824U, 858993460U, 715827883U, 613566757U, 536870912U,
+    477218589U, 429496730U, 390451573U,  357913942U,  330382100U,  306783379U, 286331154U, 268435456U, 252645136U,
+    238609295U, 226050911U, 214748365U,  204522253U,  195225787U,  186737709U, 178956971U, 171798692U, 165191050U,
+    159072863U, 153391690U, 148102321U,  143165577U,  138547333U,  134217728U, 130150525U, 126322568U, 122713352U,
+    119304648U, 116080198U, 113025456U,  110127367U,  107374183U,  104755300U, 102261127U, 99882961U,  97612894U,
+    95443718U,  93368855U,  91382283U,   89478486U,   87652394U,   85899346U,  84215046U,  82595525U,  81037119U,
+    79536432U,  78090315U,  76695845U,   75350304U,   74051161U,   72796056U,  71582789U,  70409300U,  69273667U,
+    68174085U,  67108864U,
+};
+
+static inline uint32_t reciprocal_of(int32_t length)
+{
+    return reciprocals[length];
+}
 #endif
+
+/* The longest piece that keeps to the error, `most` pixels at most. */
+static inline int32_t piece_length(el_texture_walk *walk, int32_t most)
+{
+    const uint64_t w_step = walk->planes->w.dx;
+    int32_t i = walk->length;
+    if ((int64_t)w_step >= 0) {
+        /* W grows, and so do pieces. */
+        const int32_t room_q8 = walk->w_log2_q8 - walk->limit_q8;
+        while (i < LENGTHS - 1 && room_q8 >= length_q8[i + 1]) {
+            i++;
+        }
+        while (i >= 0 && room_q8 < length_q8[i]) {
+            i--;
+        }
+    } else {
+        for (; i >= 0; i--) {
+            /* Longer than what is left of the span: as good as the shortest that is. */
+            if (i > 0 && lengths[i - 1] >= most) {
+                continue;
+            }
+            const uint32_t pixels = (uint32_t)el_min_i32(lengths[i], most);
+            const uint32_t least = (uint32_t)((walk->w + el_multiply_u16(w_step, pixels)) >> 32);
+            if (log2_floor_q8(least) >= walk->limit_q8 + length_q8[i]) {
+                break;
+            }
+        }
+    }
+    walk->length = (uint8_t)el_max_i32(i, 0);
+    return i < 0 ? 1 : el_min_i32(lengths[i], most);
 }
 
-int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left)
+int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left)
 {
+    walk->u_q16 = walk->next_u_q16;
+    walk->v_q16 = walk->next_v_q16;
     if (left == 1) {
         return 1;
     }
-    const uint64_t w_step = triangle->perspective.w.dx;
-    const bool falls = (int64_t)w_step < 0;
     /* The last knot is on the last pixel: beyond it 1/w may be anything. */
-    const int32_t most = left - 1;
-    const int32_t w_here_q8 = log2_floor_q8(whole(walk->w));
-    int32_t i = walk->length;
-    if (!falls) {
-        /* W grows, so pieces do. */
-        while (i < LENGTHS - 1 && w_here_q8 >= walk->limit_q8 + length_q8[i + 1]) {
-            i++;
-        }
+    const int32_t length = piece_length(walk, left - 1);
+    go_on(walk, (uint32_t)length);
+    find_knot(walk);
+    /* Differences over the length, rounded down: exact below 2^26, 1,024 texels, and one unit too much at most beyond. */
+    walk->u_step_q16 = walk->next_u_q16 - walk->u_q16;
+    walk->v_step_q16 = walk->next_v_q16 - walk->v_q16;
+    if (length > 1) {
+        const uint32_t reciprocal = reciprocal_of(length);
+        walk->u_step_q16 = el_multiply_high_i32_u32(walk->u_step_q16, reciprocal);
+        walk->v_step_q16 = el_multiply_high_i32_u32(walk->v_step_q16, reciprocal);
     }
-    int32_t length = 1;
-    for (; i >= 0; i--) {
-        /* Shorter lengths than what is left of the span need not be tried: a piece is no longer than that. */
-        if (i > 0 && lengths[i - 1] >= most) {
-            continue;
-        }
-        const int32_t pixels = el_min_i32(lengths[i], most);
-        const int32_t least_q8 = falls ? log2_floor_q8(whole(walk->w + w_step * (uint64_t)(int64_t)pixels)) : w_here_q8;
-        if (least_q8 >= walk->limit_q8 + length_q8[i]) {
-            length = pixels;
-            break;
-        }
-    }
-    walk->length = (uint8_t)(i < 0 ? 0 : i);
-
-    exact(walk, triangle, (uint32_t)length, &walk->next_u_q16, &walk->next_v_q16);
-    walk->u_step_q16 = step_of(walk->next_u_q16 - walk->u_q16, length);
-    walk->v_step_q16 = step_of(walk->next_v_q16 - walk->v_q16, length);
     return length;
-}
-
-void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length)
-{
-    const uint64_t pixels = (uint64_t)(int64_t)length;
-    walk->w += triangle->perspective.w.dx * pixels;
-    walk->u += triangle->perspective.u.dx * pixels;
-    walk->v += triangle->perspective.v.dx * pixels;
-    walk->u_q16 = walk->next_u_q16;
-    walk->v_q16 = walk->next_v_q16;
 }

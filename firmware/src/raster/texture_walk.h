@@ -22,11 +22,18 @@
 /* The longest piece, in pixels. */
 enum { EL_MAX_PIECE = 64 };
 
+/* Added to W. At covered pixels 1 <= W < 2^31 and |U| <= W, as at the corners; each plane is off by less than 2^-19 there, so
+ * with 2^-18 more, what is computed keeps to that. A knot moves by at most 2^-18 / W of u's range, which is less than 2^-8 of
+ * what the rounding of U at the corners may move it. */
+#define EL_W_MARGIN_Q32 (1U << 14)
+
 typedef struct el_texture_walk {
-    uint64_t w, u, v;     /* planes' values at the piece's first pixel, Q32 */
-    int32_t u_q16, v_q16; /* texture coordinates there */
+    const el_perspective *planes;
+    uint64_t w, u, v;     /* planes' values at the next knot, W with its margin, Q32 */
+    int32_t u_q16, v_q16; /* texture coordinates at the piece's first pixel */
     int32_t u_step_q16, v_step_q16;
     int32_t next_u_q16, next_v_q16; /* at the next knot */
+    int32_t w_log2_q8;              /* of W there, rounded down */
     int32_t limit_q8;               /* log2 W must be this much and 2/3 log2 n */
     uint8_t length;                 /* index of the length that the last piece had */
 } el_texture_walk;
@@ -36,9 +43,6 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, i
 
 /* Makes the next piece of a span that has `left` pixels to go, left >= 1, and returns its length in pixels, 1 to
  * EL_MAX_PIECE: u_q16 and v_q16 belong to its first pixel, the steps lead to the others. */
-int32_t el_texture_walk_piece(el_texture_walk *walk, const el_triangle *triangle, int32_t left);
-
-/* Moves on to the knot after the piece of `length` pixels. */
-void el_texture_walk_next(el_texture_walk *walk, const el_triangle *triangle, int32_t length);
+int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left);
 
 #endif

@@ -15,19 +15,26 @@ uint32_t el_triangle_bytes(el_shading shading)
     return el_has_colours(shading) ? offsetof(el_triangle, perspective) : offsetof(el_triangle, rgb);
 }
 
+static inline void put_in_order(const el_corner **first, const el_corner **second)
+{
+    const el_corner *const a = *first;
+    const el_corner *const b = *second;
+    if (a->y > b->y || (a->y == b->y && a->x > b->x)) {
+        *first = b;
+        *second = a;
+    }
+}
+
 /* Corners from the top to the bottom, and from left to right where they are level: whichever corner the caller began
  * with, the arithmetic below is the same. */
-static void sort_corners(const el_corner corners[3], const el_corner *sorted[3])
+static inline void sort_corners(const el_corner corners[3], const el_corner *sorted[3])
 {
     for (unsigned i = 0; i < 3; i++) {
-        unsigned place = i;
-        while (place > 0 && (corners[i].y < sorted[place - 1]->y ||
-                             (corners[i].y == sorted[place - 1]->y && corners[i].x < sorted[place - 1]->x))) {
-            sorted[place] = sorted[place - 1];
-            place--;
-        }
-        sorted[place] = &corners[i];
+        sorted[i] = &corners[i];
     }
+    put_in_order(&sorted[0], &sorted[1]);
+    put_in_order(&sorted[1], &sorted[2]);
+    put_in_order(&sorted[0], &sorted[1]);
 }
 
 /* u/w and v/w at the corners, relative to the middle of their range, scaled so that |U| < 2^31, with

@@ -40,10 +40,9 @@ BENCH_INLINE void bounded(const el_triangle *triangle, const span_target *row, i
     el_texture_walk walk;
     el_texture_walk_begin(&walk, triangle, 0);
     while (x < x_end) {
-        const int32_t length = el_texture_walk_piece(&walk, triangle, x_end - x);
+        const int32_t length = el_texture_walk_piece(&walk, x_end - x);
         linear(triangle, row, x, x + length, walk.u_q16, walk.v_q16, walk.u_step_q16, walk.v_step_q16);
         x += length;
-        el_texture_walk_next(&walk, triangle, length);
     }
 }
 
