@@ -137,10 +137,13 @@ static void test_sums_of_three_products(void)
                    (const int16_t[3]){factors[i / 49 % 5], factors[i / 245], factors[i / 49 % 5]});
     }
     for (unsigned i = 0; i < 3 * 8; i++) { /* each sum at its end, in one element and in three */
+        static const int16_t sides[] = {-32768, 32767, -32767};
         const int32_t most = i < 8 ? EL_DOT_MOST : EL_DOT_MOST / 3;
         const int32_t a[3] = {(i & 1U) != 0 ? most : -most, i < 8 ? 0 : most, i < 8 ? 0 : -most};
-        const int16_t side = (i & 2U) != 0 ? -32768 : 32767;
-        expect_dot(&s, a, (const int16_t[3]){side, (i & 4U) != 0 ? side : -32767, i < 16 ? side : 32767});
+        const unsigned side = i / 2 % 2;
+        const unsigned second = (i & 4U) != 0 ? side : 2U;
+        const unsigned third = i < 16 ? side : 1U;
+        expect_dot(&s, a, (const int16_t[3]){sides[side], sides[second], sides[third]});
     }
     for (; s.round < PART_OF(100000); s.round++) {
         int32_t a[3];

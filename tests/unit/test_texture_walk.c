@@ -172,11 +172,12 @@ static void test_walks_keep_to_the_error(void)
                 const int64_t w = at(&p->w, pixel + i) + EL_W_MARGIN_Q32;
                 const int64_t exact_q24 =
                     (int64_t)wide_quotient(wide_left(wide_of(at(&p->u, pixel + i)), p->u_shift + 8U), w).low;
-                const int64_t error_q24 = llabs((walk.u_q16 + (int64_t)i * walk.u_step_q16) * 256 - exact_q24);
+                const int64_t found_q16 = walk.u_q16 + i * walk.u_step_q16;
+                const int64_t error_q24 = llabs(found_q16 * 256 - exact_q24);
                 if (error_q24 > 1LL << (24 - triangle.surface.uv_error_log2)) {
                     fail_at(&s,
                             "pixel %ld of %ld, W from %016llx to %016llx, shift %u: off by %lld / 256 of 2^-16 texel",
-                            (long)(pixel + i), (long)pixels, (unsigned long long)first, (unsigned long long)last,
+                            (long)pixel + i, (long)pixels, (unsigned long long)first, (unsigned long long)last,
                             p->u_shift, (long long)error_q24);
                 }
             }
