@@ -26,7 +26,7 @@ CORES = {
 }
 ENTRIES = ("el_init", "el_frame_begin", "el_draw", "el_frame_next", "el_stream_poll", "el_tft_init", "el_ssd1306_init")
 INDIRECT = "__indirect_call"
-POINTED_AT = (r"/(panel|stream)/\w+\.c:(begin|rows|end|wait)$", r"/stream/\w+\.c:drain$")
+POINTED_AT = (r"/(panel|stream)/\w+\.c:(begin|rows|end|wait)$", r"^el_stream_drain$")
 """By level: what a call through a pointer may reach."""
 LIBRARY_BYTES = 96
 """Of any function of gcc's library. The deepest that is called divides signed 64 bits, on Cortex-M0+: __aeabi_ldivmod
