@@ -66,14 +66,18 @@ def simulator() -> str:
 
 @pytest.fixture(scope="session")
 def display() -> Iterator[str]:
-    """An X display: the one that is there, or an Xvfb for the tests alone."""
-    if os.environ.get("DISPLAY"):
-        yield os.environ["DISPLAY"]
-        return
+    """An X display of this process alone: a window that another one opens would cover this one's and take its keys.
+
+    So it is an Xvfb even where there is a display, which does only without Xvfb and for tests that run one by one.
+    """
+    before = os.environ.get("DISPLAY")
     xvfb = shutil.which("Xvfb")
     if xvfb is None:
-        missing("neither a display nor Xvfb")
-    assert xvfb is not None
+        if before is None or "PYTEST_XDIST_WORKER" in os.environ:
+            missing("neither Xvfb nor a display that no other test uses")
+        assert before is not None
+        yield before
+        return
     read, write = os.pipe()
     server = subprocess.Popen(
         [xvfb, "-displayfd", str(write), "-screen", "0", "1366x900x24", "-nolisten", "tcp"],
@@ -83,8 +87,12 @@ def display() -> Iterator[str]:
     os.close(write)
     with os.fdopen(read) as pipe:
         number = pipe.readline().strip()
+    assert number, "Xvfb did not start"
     os.environ["DISPLAY"] = f":{number}"
     yield f":{number}"
-    del os.environ["DISPLAY"]
+    if before is None:
+        del os.environ["DISPLAY"]
+    else:
+        os.environ["DISPLAY"] = before
     server.terminate()
     server.wait(10)

@@ -21,6 +21,12 @@ def notices(viewer: AtWork) -> list[str]:
     return [line.text for line in viewer.model.log_since(0)[0] if line.source.value == "viewer"]
 
 
+def record(viewer: AtWork) -> None:
+    """Starts a recording, and waits until its first frame is in it."""
+    viewer.press("r")
+    viewer.until(lambda: viewer.reader.tap and viewer.reader.tap.state and viewer.reader.tap.state.received)
+
+
 def test_a_screenshot_is_the_frame_that_is_shown_pixel_for_pixel(display: str, tmp_path: Path) -> None:
     (tmp_path / "edgeline-0001.png").write_bytes(b"mine")
     device = FakeDevice()
@@ -42,14 +48,14 @@ def test_a_recording_begins_in_mid_stream_and_holds_each_frame_as_it_was(display
     device = FakeDevice(split=True)
     with PtyDevice(device) as served, at_work(display, served.port, tmp_path) as viewer:
         viewer.until(lambda: viewer.model.frames > 5)
-        viewer.press("r")
-        viewer.rest(0.2)
+        record(viewer)
+        viewer.settle()
         red = (viewer.screen() == theme.rgb(theme.RECORDING)).all(axis=-1)
         assert red[:40, red.shape[1] // 2 :].sum() > 50, "no red mark in the upper right corner"
         begun = viewer.model.frames
         viewer.until(lambda: viewer.model.frames > begun + 20)
         viewer.press("r")
-        viewer.rest(0.2)
+        viewer.settle()
         assert not (viewer.screen() == theme.rgb(theme.RECORDING)).all(axis=-1)[:40].any()
         first, last = notices(viewer)
         assert first == f"recording {tmp_path / 'edgeline-0001.elrec'}"
@@ -72,8 +78,9 @@ def test_a_recording_begins_in_mid_stream_and_holds_each_frame_as_it_was(display
 def test_a_window_that_is_closed_completes_its_recording(display: str, tmp_path: Path) -> None:
     with PtyDevice(FakeDevice()) as served, at_work(display, served.port, tmp_path) as viewer:
         viewer.until(lambda: viewer.model.frames > 2)
-        viewer.press("r")
-        viewer.rest(0.3)
+        record(viewer)
+        begun = viewer.model.frames
+        viewer.until(lambda: viewer.model.frames > begun + 2)
         viewer.press("q")
     assert len(list(Link(RecordingTransport(str(tmp_path / "edgeline-0001.elrec"))))) > 2
 
@@ -83,7 +90,7 @@ def test_what_cannot_be_written_is_said_and_nothing_stops(display: str, tmp_path
     with PtyDevice(FakeDevice()) as served, at_work(display, served.port, gone) as viewer:
         viewer.until(lambda: viewer.model.frames > 2)
         viewer.press("s", "r")
-        viewer.rest(0.2)
+        viewer.until(lambda: len(notices(viewer)) >= 2)
         assert [text.startswith(f"{gone}/edgeline-0001") for text in notices(viewer)] == [True, True]
         assert all("cannot be written" in text for text in notices(viewer))
         seen = viewer.model.frames
@@ -93,8 +100,7 @@ def test_what_cannot_be_written_is_said_and_nothing_stops(display: str, tmp_path
 def test_a_recording_that_fails_on_the_way_is_said(display: str, tmp_path: Path) -> None:
     with PtyDevice(FakeDevice()) as served, at_work(display, served.port, tmp_path) as viewer:
         viewer.until(lambda: viewer.model.frames > 2)
-        viewer.press("r")
-        viewer.rest(0.2)
+        record(viewer)
         tap = viewer.reader.tap
         assert tap is not None
         tap.stop()

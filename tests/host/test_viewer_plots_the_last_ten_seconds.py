@@ -189,12 +189,12 @@ def texts_of(canvas: tk.Canvas) -> set[str]:
 def test_a_click_on_a_number_plots_it_and_another_one_ends_that(display: str) -> None:
     with PtyDevice(FakeDevice()) as served, at_work(display, served.port) as viewer:
         viewer.until(lambda: viewer.model.frames > 5)
-        viewer.rest()
+        viewer.settle()
         plotted = [*history.TIMES, history.CYCLES, history.BYTES_SENT]
         assert viewer.window.charts.chosen == plotted
         row = list(viewer.model.series()).index("triangles")
         for expected in ([*plotted, "triangles"], plotted):
             viewer.window.numbers.canvas.event_generate("<Button-1>", x=40, y=row * 16 + 8)
-            viewer.rest(0.2)
+            viewer.settle()
             assert viewer.window.charts.chosen == expected
             assert ("Triangles in" in texts_of(viewer.window.charts.canvas)) == ("triangles" in expected)

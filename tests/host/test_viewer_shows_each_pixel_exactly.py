@@ -15,7 +15,7 @@ from edgeline.viewer.paint import GRID_FROM, magnify
 from edgeline.viewer.sent import sent
 from edgeline.viewer.viewport import SCALES, Patch, Viewport, largest_scale
 from fake_device import FakeDevice, PtyDevice, bars
-from viewer_at_work import at_work
+from viewer_at_work import at_work, wait_for
 
 
 def noise(width: int, height: int, seed: int = 1) -> Pixels:
@@ -132,7 +132,7 @@ def test_the_screen_has_the_frame_pixel_for_pixel(display: str) -> None:
     last = to_rgb(bars(160, 120)(29))
     with PtyDevice(device) as served, at_work(display, served.port, scale=3) as viewer:
         viewer.until(lambda: viewer.model.frames == 30)
-        viewer.rest()
+        viewer.settle()
         shown = viewer.screen()
         viewport = viewer.window.picture.viewport
         assert viewport is not None
@@ -147,7 +147,7 @@ def test_the_screen_has_the_frame_pixel_for_pixel(display: str) -> None:
             viewer.canvas.event_generate("<Button-4>", x=x, y=y)
         viewer.press("g")
         viewer.canvas.event_generate("<Motion>", x=x, y=y)
-        viewer.rest()
+        viewer.settle()
         patch = viewport.patch()
         assert patch.scale == 6
         assert viewport.pixel_at(x, y) == (100, 70)
@@ -169,13 +169,20 @@ def test_the_screen_has_the_frame_pixel_for_pixel(display: str) -> None:
         assert viewport.fits
 
 
+def test_a_picture_that_comes_before_the_window_is_laid_out_gets_its_scale(display: str) -> None:
+    with PtyDevice(FakeDevice(160, 120)) as served, at_work(display, served.port, scale=3) as viewer:
+        wait_for(lambda: viewer.model.frames > 2)
+        viewer.settle()
+        assert (viewer.canvas.winfo_width(), viewer.canvas.winfo_height()) == (480, 360)
+
+
 @pytest.mark.parametrize("size", [(128, 64), (240, 320)])
 def test_other_panels_keep_their_shape(display: str, size: tuple[int, int]) -> None:
     width, height = size
     device = FakeDevice(width, height, limit=3)
     with PtyDevice(device) as served, at_work(display, served.port) as viewer:
         viewer.until(lambda: viewer.model.frames == 3)
-        viewer.rest()
+        viewer.settle()
         viewport = viewer.window.picture.viewport
         assert viewport is not None
         patch = viewport.patch()

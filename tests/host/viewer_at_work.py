@@ -19,13 +19,21 @@ from edgeline.viewer.capture import Capture
 from edgeline.viewer.controls import Controls
 from edgeline.viewer.model import View, ViewModel
 from edgeline.viewer.reader import Reader
-from edgeline.viewer.window import Window
+from edgeline.viewer.window import PANEL_MS, Window
 
 Rgb = npt.NDArray[np.uint8]
 
 
 def open_at_115200(port: str) -> Transport:
     return connect(port, 115200)
+
+
+def wait_for(true: Callable[[], object], seconds: float = 60) -> None:
+    """Until what another thread or process does has arrived, while no window lives."""
+    deadline = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < deadline, "this did not happen in time"
+        time.sleep(0.01)
 
 
 class AtWork:
@@ -72,8 +80,20 @@ class AtWork:
             self.root.update()
             time.sleep(0.002)
 
-    def rest(self, seconds: float = 0.3) -> None:
-        """Lets the window draw what there is: longer than its panels take to come round."""
+    def settle(self) -> None:
+        """Until all of the window has come round and shows what the model has had since the call, however slow that is.
+
+        Tk's timers go off in the order in which they fall due, so one as long as the panels' goes off after each of the
+        window's own has. Twice: the first round may give the window another size, and the second draws in it.
+        """
+        for _ in range(2):
+            rounds: list[None] = []
+            self.root.after(PANEL_MS, rounds.append, None)
+            self.until(lambda rounds=rounds: rounds)  # type: ignore[misc]
+        self.root.update()
+
+    def live(self, seconds: float) -> None:
+        """Lets time pass, where a test's subject is what happens, or does not, in the meantime."""
         end = time.monotonic() + seconds
         self.until(lambda: time.monotonic() > end)
 

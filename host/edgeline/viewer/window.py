@@ -268,6 +268,7 @@ class Window:
             self._resize(width, height, self._scale or largest_scale(width, height, room_x, room_y))
 
     def _resize(self, width: int, height: int, scale: int) -> None:
+        self._root.update_idletasks()  # of a window that is just opening, the parts do not know their heights before
         beside = SIDE_WIDTH if self._side_shown else 0
         below = self.log.frame.winfo_reqheight() if self._log_shown else 0
         below += self.status.frame.winfo_reqheight()
