@@ -55,7 +55,8 @@ def read(path: str) -> list[Golden]:
         with Path(path).open("rb") as stream:
             raw = stream.read(LARGEST_FILE + 1)
     except OSError as error:
-        raise EdgelineError(f"{path}: cannot be read: {error.strerror or error}; --update makes it") from None
+        hint = "; --update makes it" if isinstance(error, FileNotFoundError) else ""
+        raise EdgelineError(f"{path}: cannot be read: {error.strerror or error}{hint}") from None
     if len(raw) > LARGEST_FILE:
         raise EdgelineError(f"{path}: is larger than {LARGEST_FILE >> 20} MB, so it is no golden file")
     goldens: dict[Place, Golden] = {}

@@ -56,9 +56,9 @@ class Inputs:
         return len(self._waiting) + len(self._sent)
 
     @property
-    def controls(self) -> tuple[int, ...]:
-        """Those that are set, or are to be."""
-        return tuple(dict.fromkeys([*self._told, *(control for control, _ in self._waiting)]))
+    def values(self) -> tuple[tuple[int, int], ...]:
+        """Controls that are set, or are to be, and their values."""
+        return (*self._told.items(), *self._waiting)
 
     def ask(self, control: int, value: int) -> None:
         """Sets `control` as soon as it may be sent. Raises EdgelineError when too many wait already."""

@@ -192,12 +192,12 @@ class Session:
         Raises EdgelineError on numbers that do not fit or when more than a thousand wait, DeviceError if the device
         does not take it or cannot be told. If that is found out later, it is Refused.
         """
-        if not (0 <= control <= 255 and -(2**31) <= value < 2**31):
+        if not (_is_whole(control, 0, 255) and _is_whole(value, -(2**31), 2**31 - 1)):
             raise EdgelineError(f"control {control} = {value}: a control is 0..255, its value a signed 32-bit number")
         if self.one_way:
             raise DeviceError("this stream is one-way (a recording, a pipe): there is nobody to take INPUT")
         if self.hello is not None:
-            _need_controls(self.hello, (control,))
+            _need_values(self.hello, ((control, value),))
         self._inputs.ask(control, value)
         if self._now is not None:
             self._send_inputs(self._now)
@@ -343,7 +343,7 @@ class Session:
             events.append(Connected(hello, restarted))
         if known is None:
             try:
-                _need_controls(hello, self._inputs.controls)
+                _need_values(hello, self._inputs.values)
                 _need_mode(hello, self.mode)
             except DeviceError as error:
                 return self._refuse(error)
@@ -429,13 +429,41 @@ def _identity(hello: Hello) -> Hello:
     return replace(hello, input=0, baud=0)
 
 
-def _need_controls(hello: Hello, controls: tuple[int, ...]) -> None:
-    if controls and Capability.INPUT not in hello.capabilities:
-        raise DeviceError(f"{hello.target}, {hello.firmware}: takes no INPUT, so its scene cannot be chosen")
-    for control in controls:
+_RANGES: dict[int, tuple[int, int]] = {
+    protocol.Control.FRAME: (0, 2**31 - 1),
+    protocol.Control.PAUSE: (0, 1),
+    protocol.Control.STEP: (1, 2**31 - 1),
+    protocol.Control.PITCH: (-16384, 16384),
+    protocol.Control.ZOOM: (-1024, 1024),
+    protocol.Control.PAN_X: (-4096, 4096),
+    protocol.Control.PAN_Y: (-4096, 4096),
+    protocol.Control.SHADING: (0, 3),
+    protocol.Control.TEXTURE_ERROR: (0, 5),
+}
+"""WIRE.md, "INPUT". A device ignores what lies outside."""
+
+
+def _need_values(hello: Hello, values: tuple[tuple[int, int], ...]) -> None:
+    """Raises DeviceError where the device is known to ignore one of the (control, value)."""
+    device = f"{hello.target}, {hello.firmware}"
+    if values and Capability.INPUT not in hello.capabilities:
+        raise DeviceError(f"{device}: takes no INPUT, so its scene cannot be chosen")
+    names = {member.value: member.name for member in protocol.Control}
+    for control, value in values:
+        name = names.get(control, str(control))
         if not hello.knows(control):
-            names = {member.value: member.name for member in protocol.Control}
-            raise DeviceError(f"{hello.target}, {hello.firmware}: has no control {names.get(control, control)}")
+            raise DeviceError(f"{device}: has no control {name}")
+        if control == protocol.Control.SCENE and hello.scenes and not 0 <= value < hello.scenes:
+            raise DeviceError(f"{device}: has no scene {value}: they are 0..{hello.scenes - 1}")
+        if control == protocol.Control.VIEW and not hello.has_view(value):
+            raise DeviceError(f"{device}: has no debug view {value}")
+        low, high = _RANGES.get(control, (-(2**31), 2**31 - 1))
+        if not low <= value <= high:
+            raise DeviceError(f"{name} {value}: it takes {low}..{high}")
+
+
+def _is_whole(value: object, low: int, high: int) -> bool:
+    return isinstance(value, int) and low <= value <= high
 
 
 def _need_mode(hello: Hello, mode: Mode) -> None:

@@ -3,6 +3,7 @@ device that takes it."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -138,10 +139,10 @@ def test_the_library_names_controls() -> None:
 def test_the_commands_set_controls(edgeline: Edgeline, tmp_path: Path) -> None:
     device = FakeDevice()
     with PtyDevice(device) as served:
-        shot = edgeline("shot", "-p", served.port, "--scene", "4", "--frame", "0", "--pause")
+        shot = edgeline("shot", "-p", served.port, "--scene", "3", "--frame", "0", "--pause")
         record = edgeline("record", "-p", served.port, "--frames", "1", "-o", "a.png", "--frame", "10")
     assert (shot.returncode, record.returncode) == (0, 0)
-    assert device.taken == [(3, 1), (1, 4), (2, 0), (2, 10)]
+    assert device.taken == [(3, 1), (1, 3), (2, 0), (2, 10)]
     assert {path.name for path in tmp_path.iterdir()} == {"shot.png", "a.png"}
 
 
@@ -155,3 +156,32 @@ def test_the_commands_say_when_there_is_no_input(edgeline: Edgeline) -> None:
     )
     assert plain.returncode == 0
     assert edgeline("shot", "--scene", "-1").returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("control", "value", "said"),
+    [
+        ("scene", 4, "fake board, edgeline 0.1.0: has no scene 4: they are 0..3"),
+        ("view", 9, "fake board, edgeline 0.1.0: has no debug view 9"),
+        ("pitch", 16385, "PITCH 16385: it takes -16384..16384"),
+        ("step", 0, "STEP 0: it takes 1..2147483647"),
+    ],
+)
+def test_what_the_device_would_ignore_is_refused(control: str, value: int, said: str) -> None:
+    """With and without its HELLO, which says what it has."""
+    with PtyDevice(FakeDevice()) as served, package.open(served.port) as link:
+        _ = link.hello
+        with pytest.raises(DeviceError, match=re.escape(said)):
+            link.control(control, value)
+    with PtyDevice(FakeDevice()) as served, package.open(served.port) as link:
+        link.control(control, value)
+        with pytest.raises(DeviceError, match=re.escape(said)):
+            link.next_frame(5)
+
+
+def test_a_value_that_is_no_whole_number_is_refused() -> None:
+    with PtyDevice(FakeDevice()) as served, package.open(served.port) as link:
+        with pytest.raises(EdgelineError, match=r"a control is 0\.\.255, its value a signed 32-bit number"):
+            link.control("scene", "room")  # type: ignore[arg-type]
+        with pytest.raises(EdgelineError, match=r"a control is 0\.\.255"):
+            link.control("pan_x", 1.5)  # type: ignore[arg-type]

@@ -189,7 +189,7 @@ def over_a_bad_link(seed: int, loss: float, session: Session | None = None) -> t
     asked: list[tuple[int, int]] = []
     while len(asked) < 300:
         for _ in range(rng.choice((0, 0, 1, 2, 5))):
-            asked.append((rng.choice((Control.SCENE, Control.STEP, 130)), len(asked)))
+            asked.append((rng.choice((Control.FRAME, Control.STEP, 130)), 1 + len(asked)))
             talk.session.input(*asked[-1])
         for event in talk.step():
             if isinstance(event, Frame) and event.shows_inputs:

@@ -55,6 +55,19 @@ def test_the_box_keeps_the_newest_value_of_each_control() -> None:
     assert taken(controls) == [(Control.PAUSE, 1), (Control.STEP, 5)]
 
 
+def test_another_link_is_told_all_that_was_set() -> None:
+    controls = connected()
+    controls.next_view(1)
+    controls.choose_scene(2)
+    controls.turn(ORBIT_STEP, 0)
+    taken(controls)
+    controls.connect(hello(), one_way=False)
+    assert taken(controls) == []
+    controls.connect(hello(), one_way=False, again=True)
+    view = (Control.VIEW, int(DebugView.OVERDRAW))
+    assert taken(controls) == [(Control.PAUSE, 0), (Control.SCENE, 2), (Control.YAW, ORBIT_STEP), view]
+
+
 def test_values_stay_in_the_wire_s_ranges() -> None:
     controls = connected()
     for _ in range(200):

@@ -41,7 +41,8 @@ static void pass(uint32_t us)
 static void ask(uint32_t rate)
 {
     char hex[12];
-    (void)snprintf(hex, sizeof hex, "%02X %02X %02X %02X", rate & 255, rate >> 8 & 255, rate >> 16 & 255, rate >> 24);
+    (void)snprintf(hex, sizeof hex, "%02X %02X %02X %02X", (unsigned)(rate & 255), (unsigned)(rate >> 8 & 255),
+                   (unsigned)(rate >> 16 & 255), (unsigned)(rate >> 24));
     host_packet(&wire, EL_PACKET_SET_BAUD, hex);
     poll();
 }

@@ -30,6 +30,10 @@ _SAMPLES = (1, 4, 8)
 _SHADINGS = {Shading.FLAT: "flat shading", Shading.COLOURS: "vertex colours alone", Shading.TEXTURES: "textures alone"}
 
 
+def _order(control: Control) -> int:
+    return -1 if control is Control.PAUSE else int(control)
+
+
 class Controls:
     """Values as WIRE.md, "INPUT", has them; what the device was not asked for is 0 there, except for the scene, which
     it chooses itself. `scene` and `paused`: what its session asks for at its beginning."""
@@ -44,12 +48,17 @@ class Controls:
         self._views: tuple[DebugView, ...] = (DebugView.PICTURE,)
         self._scenes = 0
 
-    def connect(self, hello: Hello, one_way: bool) -> None:
-        """Another device may know other controls; one at the other end of a `one_way` stream hears of none."""
+    def connect(self, hello: Hello, one_way: bool, again: bool = False) -> None:
+        """Another device may know other controls; one at the other end of a `one_way` stream hears of none. `again`:
+        the link was lost and is another one, so the device is told all that was set; it may have started anew."""
         with self._lock:
             self._known = frozenset(control for control in Control if hello.knows(control) and not one_way)
             self._views = tuple(view for view in DebugView if hello.has_view(view)) or (DebugView.PICTURE,)
             self._scenes = hello.scenes
+            if again:
+                # PAUSE comes first, as WIRE.md has it, then the scene, which begins anew.
+                told = {control: self._values[control] for control in sorted(self._values, key=_order)}
+                self._waiting = {**told, **self._waiting}
             self._waiting = {control: value for control, value in self._waiting.items() if control in self._known}
             if self._values.get(Control.VIEW, 0) not in self._views:
                 del self._values[Control.VIEW]

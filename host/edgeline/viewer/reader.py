@@ -69,6 +69,7 @@ class Reader(threading.Thread):
         self._stopping = threading.Event()
         self._last: discovery.PortInfo | None = None
         self._refused = False
+        self._had_link = False
         self._others_due = 0.0
         self.tap: Tap | None = None
         """what recordings are made with; None before the first port was open"""
@@ -106,6 +107,7 @@ class Reader(threading.Thread):
         with Link(tap, self._new_session()) as link:
             try:
                 measured = refused_at = None
+                again = self._had_link
                 while not self._stopping.is_set():
                     self._ask(link.session)
                     events = link.step()
@@ -113,7 +115,8 @@ class Reader(threading.Thread):
                     for event in events:
                         if isinstance(event, Connected):
                             self._refused = False
-                            self._controls.connect(event.hello, tap.one_way)
+                            self._controls.connect(event.hello, tap.one_way, again)
+                            again, self._had_link = False, True  # within a session it is the session that tells
                         elif isinstance(event, Frame) and link.session.hello is not None:
                             tap.frame(link.session.hello, event)
                         elif isinstance(event, Refused):
