@@ -17,7 +17,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from .frames import Verdicts
-from .machines import CORES, ROOT, BenchError, Machines
+from .machines import MAIN_CORES, ROOT, BenchError, Machines
 
 sys.path.insert(0, str(ROOT / "host"))
 
@@ -77,7 +77,7 @@ def encode(machines: Machines, verdicts: Verdicts) -> list[Encoded]:
     first = {line.words[0]: {key: int(line.values[key]) for key in BYTES} for line in lines if line.words[1] == "first"}
     crcs = {line.words: line.crc for line in native}
     counts: dict[tuple[str, str], list[int]] = {}
-    for core in CORES:
+    for core in MAIN_CORES:
         for counted in machines.target(core, "codec"):
             words = counted.line.words
             verdicts.check(counted.line.crc == crcs[words], f"{core}: {' '.join(words)} has other bytes")
@@ -85,7 +85,7 @@ def encode(machines: Machines, verdicts: Verdicts) -> list[Encoded]:
     found = []
     for name, first_bytes in first.items():
         bytes_per_frame = [int(line.values["bytes"]) for line in native if line.words[0] == name]
-        instructions = {core: round(_mean(counts[name, core]) / PIXELS, 1) for core in CORES}
+        instructions = {core: round(_mean(counts[name, core]) / PIXELS, 1) for core in MAIN_CORES}
         found.append(Encoded(name, round(_mean(bytes_per_frame)), first_bytes, instructions))
     for one in found:
         limit = MOST_INSTRUCTIONS.get(one.sequence)

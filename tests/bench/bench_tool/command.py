@@ -13,7 +13,7 @@ from typing import Any
 from . import codec, compare, frames, size
 from .machines import (
     BENCH,
-    CORES,
+    MAIN_CORES,
     ROOT,
     BenchError,
     Machines,
@@ -87,7 +87,7 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
         if options.all:
             _write_json(RESULTS / "scenes.json", {"frames": frames.rows(found)})
     if options.profile is not None:
-        for core in CORES:
+        for core in MAIN_CORES:
             _print_profile(core, machines.profile(core, options.profile))
     if options.codec or options.record_codec or options.all:
         streams = codec.measure(machines, verdicts)

@@ -9,7 +9,7 @@ from typing import Any
 
 from .choices import GROUPS, RENDERER
 from .frames import Verdicts
-from .machines import CORES, BenchError, Line, Machines
+from .machines import MAIN_CORES, BenchError, Line, Machines
 from .score import Reference
 
 Choice = dict[str, Any]
@@ -20,7 +20,7 @@ def measure(machines: Machines, verdicts: Verdicts) -> list[dict[str, Any]]:
     keep = machines.folder / "native" / "alternatives.kept"
     native = [line for line in machines.native("alternatives", keep) if line.words[0] != "empty"]
     counts: dict[tuple[str, ...], dict[str, int]] = {line.words: {} for line in native}
-    for core in CORES:
+    for core in MAIN_CORES:
         found = machines.target(core, "alternatives")
         if len(found) != len(native):
             raise BenchError(f"{core} measured {len(found)} alternatives, this computer {len(native)}")
@@ -62,7 +62,7 @@ def _group(
             }
         )
     for row in choices:
-        row["pareto"] = [core for core in CORES if on_front(row, choices, core, group.error)]
+        row["pareto"] = [core for core in MAIN_CORES if on_front(row, choices, core, group.error)]
     result: dict[str, Any] = {
         "name": name,
         "title": group.title,
@@ -78,7 +78,7 @@ def _group(
             renderer.crc == chosen.crc, f"{name}: the renderer draws {renderer.crc}, the copy of its loop {chosen.crc}"
         )
         costs = counts[renderer.words]
-        result["renderer_instructions"] = {core: round(costs[core] / units, 2) for core in CORES}
+        result["renderer_instructions"] = {core: round(costs[core] / units, 2) for core in MAIN_CORES}
     return result
 
 
@@ -95,15 +95,15 @@ def as_csv(groups: Iterable[dict[str, Any]]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(
         [
-            *("group", "choice", "title", "chosen", "unit", *(f"instructions_{core}" for core in CORES)),
-            *("native_ratio", "error", "value", *(f"pareto_{core}" for core in CORES)),
+            *("group", "choice", "title", "chosen", "unit", *(f"instructions_{core}" for core in MAIN_CORES)),
+            *("native_ratio", "error", "value", *(f"pareto_{core}" for core in MAIN_CORES)),
         ]
     )
     for group in groups:
         for choice in group["choices"]:
             for error, value in choice["errors"].items():
-                fronts = [int(core in choice["pareto"]) if error == group["error"] else "" for core in CORES]
-                costs = [choice["instructions"][core] for core in CORES]
+                fronts = [int(core in choice["pareto"]) if error == group["error"] else "" for core in MAIN_CORES]
+                costs = [choice["instructions"][core] for core in MAIN_CORES]
                 writer.writerow(
                     [
                         *(group["name"], choice["name"], choice["title"], int(choice["chosen"]), group["unit"]),
@@ -120,7 +120,9 @@ def table(groups: Iterable[dict[str, Any]]) -> str:
         lines.append(f"| *{group['title']}*, instructions per {group['unit']} | | | | |")
         for choice in group["choices"]:
             title = f"**{choice['title']}**" if choice["chosen"] else choice["title"]
-            costs = [f"{choice['instructions'][core]:.1f}{' *' if core in choice['pareto'] else ''}" for core in CORES]
+            costs = [
+                f"{choice['instructions'][core]:.1f}{' *' if core in choice['pareto'] else ''}" for core in MAIN_CORES
+            ]
             errors = ", ".join(f"{key.replace('_', ' ')} {value:.4g}" for key, value in choice["errors"].items())
             lines.append(f"| {title} | {' | '.join(costs)} | x {choice['native_ratio']:.2f} | {errors} |")
     return "\n".join(lines)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from .machines import CORES, BenchError, Line, Machines, output_of
+from .machines import MAIN_CORES, BenchError, Line, Machines, output_of
 
 # Counts may differ by that much from the recorded ones before somebody must look and record anew.
 TOLERANCE = 0.03
@@ -76,7 +76,7 @@ def measure(machines: Machines, verdicts: Verdicts, bits: int = 4) -> list[Frame
     """All frames on all cores. Each core's picture must be the native build's, and with 4 bits the simulator's."""
     native = [line for line in machines.native("scenes", bits=bits) if line.words[0] != "empty"]
     counts: dict[str, list[int]] = {}
-    for core in CORES:
+    for core in MAIN_CORES:
         found = machines.target(core, "scenes", bits)
         if len(found) != len(native):
             raise BenchError(f"{core} drew {len(found)} frames, this computer {len(native)}")
@@ -86,7 +86,9 @@ def measure(machines: Machines, verdicts: Verdicts, bits: int = 4) -> list[Frame
                 there.line.words == here.words and there.line.crc == here.crc,
                 f"{core} draws {' '.join(there.line.words)} as {there.line.crc}, this computer as {here.crc}",
             )
-    frames = [_frame(line, bits, {core: counts[core][index] for core in CORES}) for index, line in enumerate(native)]
+    frames = [
+        _frame(line, bits, {core: counts[core][index] for core in MAIN_CORES}) for index, line in enumerate(native)
+    ]
     if bits == 4:
         compare_with_simulator(machines, frames, verdicts)
     return frames
@@ -160,7 +162,7 @@ def table(frames: Iterable[Frame]) -> str:
             f"1/{1 << frame.uv_error_log2}",
             str(frame.subpixel_bits),
         ]
-        for core in CORES:
+        for core in MAIN_CORES:
             millions = frame.instructions[core] / 1e6
             cells.append(f"{millions:.3f} M")
             peer = PEERS[core].get(frame.scene)

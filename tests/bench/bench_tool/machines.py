@@ -1,4 +1,4 @@
-"""Building and running the measuring programs: on a Cortex-M in QEMU, where executed instructions are counted, and on
+"""Building and running the measuring programs: on bare cores in QEMU, where executed instructions are counted, and on
 this computer, where time is taken."""
 
 from __future__ import annotations
@@ -14,12 +14,60 @@ from pathlib import Path
 
 BENCH = Path(__file__).resolve().parents[1]
 ROOT = BENCH.parents[1]
-TOOLCHAIN = ROOT / "firmware" / "boards" / "cortex_m" / "arm-none-eabi.cmake"
+BOARDS = ROOT / "firmware" / "boards"
 
-# Core, and the QEMU machine that runs it: a Cortex-M3 runs what is compiled for a Cortex-M0+.
-CORES = {"cortex-m0plus": "mps2-an385", "cortex-m4f": "mps2-an386"}
 
-TOOLS = ("arm-none-eabi-gcc", "arm-none-eabi-nm", "qemu-system-arm", "cmake", "cc")
+@dataclass(frozen=True)
+class Core:
+    """A core as its toolchain file's EDGELINE_CPU calls it, QEMU's machine that runs it, and where its code begins
+    there. Each is compiled for with -O2."""
+
+    name: str
+    title: str
+    machine: tuple[str, ...]
+    code: int = 0
+
+    @property
+    def is_arm(self) -> bool:
+        return self.name.startswith("cortex")
+
+    @property
+    def qemu(self) -> str:
+        return "qemu-system-arm" if self.is_arm else "qemu-system-riscv32"
+
+    @property
+    def toolchain(self) -> Path:
+        return BOARDS / ("cortex_m/arm-none-eabi.cmake" if self.is_arm else "riscv/riscv32-none-elf.cmake")
+
+    def tool(self, name: str) -> str:
+        """A program of its compiler's: gcc, nm ..."""
+        return f"{'arm-none-eabi' if self.is_arm else 'riscv64-unknown-elf'}-{name}"
+
+
+# A Cortex-M3 runs what is compiled for a Cortex-M0+.
+CORES = {
+    core.name: core
+    for core in (
+        Core("cortex-m0plus", "Cortex-M0+", ("mps2-an385",)),
+        Core("cortex-m3", "Cortex-M3", ("mps2-an385",)),
+        Core("cortex-m4f", "Cortex-M4F", ("mps2-an386",)),
+        Core("cortex-m7", "Cortex-M7", ("mps2-an500",)),
+        Core("cortex-m33", "Cortex-M33", ("mps2-an505",), 0x10000000),
+        Core("rv32imc", "RV32IMC", ("virt", "-bios", "none"), 0x80000000),
+    )
+}
+
+# The two between which the others lie: what is measured with much besides is measured on these alone.
+MAIN_CORES = ("cortex-m0plus", "cortex-m4f")
+
+PACKAGES = {
+    "arm-none-eabi-gcc": "gcc-arm-none-eabi libnewlib-arm-none-eabi",
+    "qemu-system-arm": "qemu-system-arm",
+    "riscv64-unknown-elf-gcc": "gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf",
+    "qemu-system-riscv32": "qemu-system-misc",
+    "cmake": "cmake",
+    "cc": "gcc libc6-dev",
+}
 RUN_TIMEOUT_S = 300
 
 
@@ -51,12 +99,10 @@ class Measured:
 
 def check_tools() -> None:
     """Raises MissingToolError when a tool is not there."""
-    missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    missing = [tool for tool in PACKAGES if shutil.which(tool) is None]
     if missing:
-        raise MissingToolError(
-            f"{', '.join(missing)} not found; on Debian: apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi "
-            "qemu-system-arm"
-        )
+        packages = " ".join(PACKAGES[tool] for tool in missing)
+        raise MissingToolError(f"{', '.join(missing)} not found; on Debian: apt-get install {packages}")
 
 
 def output_of(command: Sequence[str | Path], environment: dict[str, str] | None = None) -> str:
@@ -80,8 +126,8 @@ def output_of(command: Sequence[str | Path], environment: dict[str, str] | None 
     return done.stdout
 
 
-def compiler_version() -> str:
-    return output_of(["arm-none-eabi-gcc", "-dumpfullversion"]).strip()
+def compiler_version(core: str = "cortex-m0plus") -> str:
+    return output_of([CORES[core].tool("gcc"), "-dumpfullversion"]).strip()
 
 
 def qemu_version() -> str:
@@ -98,7 +144,7 @@ class Machines:
 
     def native(self, program: str, keep: Path | None = None, bits: int = 4) -> list[Line]:
         """The program's measurements on this computer; `keep` gets the files that it leaves."""
-        path = self._build("native", program, bits)
+        path = self.build("native", program, bits)
         arguments: list[str | Path] = [path]
         if keep is not None:
             keep.mkdir(parents=True, exist_ok=True)
@@ -107,19 +153,22 @@ class Machines:
 
     def simulator(self) -> Path:
         """The simulator, built from the same sources."""
-        return self._build("native", "edgeline-sim", 4)
+        return self.build("native", "edgeline-sim")
 
     def target(self, core: str, program: str, bits: int = 4, profile: Path | None = None) -> list[Measured]:
         """The program's measurements on a core, the cost of the markers taken off; `profile` gets the plugin's."""
-        elf = self._build(core, program, bits)
-        self._build("native", "count", 4)
+        machine = CORES[core]
+        elf = self.build(core, program, bits)
+        self.build("native", "count")
         plugin = self._tree("native", 4) / "libcount.so"
         log, text = elf.with_suffix(".count"), elf.with_suffix(".text")
-        markers = ",".join(f"{name}=0x{address:x}" for name, address in marker_addresses(elf).items())
-        arguments = f"{markers},out={log}" + ("" if profile is None else f",profile={profile}")
+        markers = ",".join(f"{name}=0x{address:x}" for name, address in marker_addresses(machine, elf).items())
+        arguments = f"{markers},out={log}"
+        if profile is not None:
+            arguments += f",code=0x{machine.code:x},profile={profile}"
         output_of(
             [
-                *("qemu-system-arm", "-M", CORES[core], "-kernel", elf),
+                *(machine.qemu, "-M", *machine.machine, "-kernel", elf),
                 *("-display", "none", "-monitor", "none", "-serial", "none"),
                 *("-chardev", f"file,id=text,path={text}"),
                 *("-semihosting-config", "enable=on,target=native,chardev=text"),
@@ -131,14 +180,14 @@ class Machines:
     def profile(self, core: str, scene: str) -> dict[str, int]:
         """Instructions of the scene's first frame, by function; inlined ones count for their caller. The calls that
         check the picture are left out."""
-        elf = self._build(core, "scenes", 4)
+        elf = self.build(core, "scenes")
         path = elf.with_suffix(".profile")
         names = [one.line.words[0] for one in self.target(core, "scenes", profile=path)]
         if scene not in names:
             raise BenchError(f"no scene '{scene}' is measured; there are {', '.join(dict.fromkeys(names))}")
         # Before the first measurement come start-up and the empty one.
         section = path.read_text(encoding="ascii").split("next\n")[names.index(scene) + 2]
-        functions = function_addresses(elf)
+        functions = function_addresses(CORES[core], elf)
         starts = [address for address, _ in functions]
         found: dict[str, int] = {}
         for row in section.splitlines():
@@ -151,13 +200,14 @@ class Machines:
     def _tree(self, core: str, bits: int) -> Path:
         return self.folder / (core if bits == 4 else f"{core}-{bits}")
 
-    def _build(self, core: str, program: str, bits: int) -> Path:
+    def build(self, core: str, program: str, bits: int = 4) -> Path:
+        """The program, built for a core or "native"."""
         tree = self._tree(core, bits)
         if str(tree) not in self._configured:
             command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
-            command += ["-DCMAKE_C_FLAGS_RELEASE=-O2", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
+            command += ["-DCMAKE_C_FLAGS_RELEASE=-O2 -g", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
             if core != "native":
-                command += [f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}", f"-DEDGELINE_CPU={core}"]
+                command += [f"-DCMAKE_TOOLCHAIN_FILE={CORES[core].toolchain}", f"-DEDGELINE_CPU={core}"]
             output_of(command)
             self._configured[str(tree)] = tree
         output_of(["cmake", "--build", tree, "--parallel", str(os.cpu_count() or 1), "--target", program])
@@ -176,19 +226,19 @@ def parse_lines(text: str) -> list[Line]:
     return lines
 
 
-def function_addresses(elf: Path) -> list[tuple[int, str]]:
+def function_addresses(core: Core, elf: Path) -> list[tuple[int, str]]:
     """Functions in the order of their addresses."""
-    rows = [row.split() for row in output_of(["arm-none-eabi-nm", elf]).splitlines()]
+    rows = [row.split() for row in output_of([core.tool("nm"), elf]).splitlines()]
     return sorted((int(row[0], 16) & ~1, row[2]) for row in rows if len(row) == 3 and row[1] in "tTwW")
 
 
-def marker_addresses(elf: Path) -> dict[str, int]:
+def marker_addresses(core: Core, elf: Path) -> dict[str, int]:
     """The addresses of bench_next, bench_start and bench_stop."""
     found = {}
-    for row in output_of(["arm-none-eabi-nm", elf]).splitlines():
-        address, *_, name = row.split()
+    for row in output_of([core.tool("nm"), elf]).splitlines():
+        *_, name = row.split()
         if name in ("bench_next", "bench_start", "bench_stop"):
-            found[name.removeprefix("bench_")] = int(address, 16) & ~1
+            found[name.removeprefix("bench_")] = int(row.split()[0], 16) & ~1
     if len(found) != 3:
         raise BenchError(f"{elf.name} has no markers; build it anew")
     return found

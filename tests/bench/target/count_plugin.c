@@ -7,8 +7,9 @@
  * instructions executed until then. The count is an addition that QEMU compiles into each guest instruction; markers
  * alone call back, so counting costs little.
  *
- * With profile=FILE that file gets, at each `next` and at the end, "next" and then "ADDRESS COUNT" for every instruction
- * that was executed since the one before.
+ * With profile=FILE that file gets, at each `next` and at the end, "ADDRESS COUNT" for every instruction that was executed
+ * since the one before, and then "next". The code begins at code=ADDRESS; instructions outside PROFILED_BYTES from there
+ * are summed up as "elsewhere COUNT".
  *
  * Debian's QEMU package has no header for plugins, so what is used of the interface, version 1, is declared here as
  * QEMU's documentation has it ("QEMU TCG Plugins", docs/devel/tcg-plugins.rst). */
@@ -54,6 +55,8 @@ static FILE *out;
 /* How often each halfword of code was executed. */
 enum { PROFILED_BYTES = 1 << 20 };
 static uint64_t visits[PROFILED_BYTES / 2];
+static uint64_t elsewhere;
+static uint64_t code_begin;
 static FILE *profile;
 
 static void write_profile(void)
@@ -63,9 +66,13 @@ static void write_profile(void)
     }
     for (size_t i = 0; i < PROFILED_BYTES / 2; i++) {
         if (visits[i] != 0) {
-            fprintf(profile, "%zx %" PRIu64 "\n", 2 * i, visits[i]);
+            fprintf(profile, "%" PRIx64 " %" PRIu64 "\n", code_begin + 2 * i, visits[i]);
             visits[i] = 0;
         }
+    }
+    if (elsewhere != 0) {
+        fprintf(profile, "elsewhere %" PRIu64 "\n", elsewhere);
+        elsewhere = 0;
     }
     fprintf(profile, "next\n");
     fflush(profile);
@@ -95,8 +102,10 @@ static void instrument(qemu_plugin_id_t id, struct qemu_plugin_tb *tb)
         struct qemu_plugin_insn *const insn = qemu_plugin_tb_get_insn(tb, i);
         qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, &count, 1);
         const uint64_t address = qemu_plugin_insn_vaddr(insn);
-        if (profile != NULL && address < PROFILED_BYTES) {
-            qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, &visits[address / 2], 1);
+        if (profile != NULL) {
+            const uint64_t offset = address - code_begin;
+            uint64_t *const visited = offset < PROFILED_BYTES ? &visits[offset / 2] : &elsewhere;
+            qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, visited, 1);
         }
         for (size_t m = 0; m < MARKERS; m++) {
             if (address == markers[m].address) {
@@ -123,6 +132,10 @@ static int take_argument(const char *text)
     if (length == 3 && strncmp(text, "out", 3) == 0) {
         out = fopen(value + 1, "w");
         return out != NULL;
+    }
+    if (length == 4 && strncmp(text, "code", 4) == 0) {
+        code_begin = strtoull(value + 1, NULL, 16);
+        return 1;
     }
     if (length == 7 && strncmp(text, "profile", 7) == 0) {
         profile = fopen(value + 1, "w");

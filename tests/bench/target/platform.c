@@ -1,5 +1,5 @@
-/* platform.h on a bare Cortex-M in QEMU: start-up as boards have it (boards/cortex_m), text and exit by semihosting as the
- * unit tests on target have them (tests/target/semihost). Whatever goes wrong ends the program with status 99. */
+/* platform.h on a bare core in QEMU: start-up, text and exit by semihosting as the unit tests on target have them
+ * (tests/target/semihost). Whatever goes wrong ends the program with status 99. */
 #include "platform.h"
 
 #include "semihost.h"
