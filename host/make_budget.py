@@ -198,7 +198,7 @@ def frames() -> str:
     rows = {}
     for frame in content["frames"]:
         usual = frame["subpixel_bits"] == 4 and frame["uv_error_log2"] == 3 and frame["number"] == 0
-        if usual and frame["passes"] == 1 and frame["scene"] not in rows:
+        if usual and frame["passes"] == 1 and frame["scene"] in summaries and frame["scene"] not in rows:
             rows[frame["scene"]] = (summaries[frame["scene"]], frame["instructions"])
     source = f"{content['command']}, arm-none-eabi-gcc {content['compiler']}, QEMU {content['qemu']}"
     return (

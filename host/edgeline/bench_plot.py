@@ -1,33 +1,23 @@
-"""Charts of what tests/bench measures: for each choice of the renderer, executed instructions against error.
+"""A chart of what tests/bench measures: for each choice of the renderer, executed instructions against error.
 
 A panel per group and core; each numbered point is one way to do the same, the renderer's own is filled, and the stepped
-line is the Pareto front, below and left of which nothing was found. matplotlib is an optional extra and imported when a
-chart is drawn, so that all else works without it.
+line is the Pareto front, below and left of which nothing was found.
 """
 
 from __future__ import annotations
 
-import importlib
-import json
-from pathlib import Path
 from typing import Any
 
-from edgeline.errors import EdgelineError, OutputError
+from edgeline.chart import draw_with_pyplot
+from edgeline.errors import EdgelineError
 
 CORE_TITLES = {"cortex-m0plus": "Cortex-M0+", "cortex-m4f": "Cortex-M4F"}
 PANEL_INCHES = (4.4, 2.5)
-DOTS_PER_INCH = 80
 
 
-def load(path: str) -> list[dict[str, Any]]:
-    """The groups of an accuracy_cost.json. Raises EdgelineError when the file is none."""
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise EdgelineError(f"{path}: {error.strerror}") from None
-    except ValueError as error:
-        raise EdgelineError(f"{path} is no JSON: {error}") from None
-    groups = content.get("groups") if isinstance(content, dict) else None
+def check(path: str, content: dict[str, Any]) -> list[dict[str, Any]]:
+    """The groups of an accuracy_cost.json. Raises EdgelineError when it lacks something."""
+    groups = content["groups"]
     if not isinstance(groups, list) or not groups:
         raise EdgelineError(f"{path} holds no groups; tests/bench/run --all writes a file that does")
     try:
@@ -62,12 +52,10 @@ def front(found: list[tuple[float, float, str, bool]]) -> list[tuple[float, floa
 
 def draw(groups: list[dict[str, Any]], output: str) -> None:
     """Writes the chart as PNG (or whatever matplotlib makes of the name's ending). Raises EdgelineError."""
-    try:
-        matplotlib = importlib.import_module("matplotlib")
-    except ImportError as error:
-        raise EdgelineError(f"charts need matplotlib ({error}): pip install 'edgeline[plot]'") from None
-    matplotlib.use("Agg")
-    pyplot = importlib.import_module("matplotlib.pyplot")
+    draw_with_pyplot(lambda pyplot: _draw(pyplot, groups), output)
+
+
+def _draw(pyplot: Any, groups: list[dict[str, Any]]) -> Any:
     width, height = PANEL_INCHES
     figure, panels = pyplot.subplots(
         len(groups),
@@ -90,13 +78,7 @@ def draw(groups: list[dict[str, Any]], output: str) -> None:
             va="center",
             fontsize=9,
         )
-    try:
-        # Without dates and versions: the same figures give the same file.
-        figure.savefig(output, dpi=DOTS_PER_INCH, metadata={"Software": None})
-    except (OSError, ValueError) as error:
-        raise OutputError(f"cannot write {output}: {error}") from None
-    finally:
-        pyplot.close(figure)
+    return figure
 
 
 def _draw_panel(panel: Any, group: dict[str, Any], core: str, title: str) -> None:

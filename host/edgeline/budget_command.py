@@ -19,7 +19,7 @@ from edgeline.budget import MICROCONTROLLER_BITS, PANELS, Account, Wish, account
 if TYPE_CHECKING:
     SubParsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
-CORES = ("cortex-m0plus", "cortex-m4f")
+CORES = tuple(facts.FRAMES["S1"][1])
 SHADINGS = ("flat", "gouraud", "textured")
 SLOW_BYTE_CLOCKS = Fraction(17, 2)
 """Clocks per byte that are reported of an RP2040 with DMA in SPI mode 3: there are gaps between words."""

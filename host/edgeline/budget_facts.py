@@ -23,21 +23,108 @@ STRUCT_BYTES: dict[int, dict[str, int]] = {
 }
 """By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
 
-FRAMES_SOURCE = "tests/bench/run --all, arm-none-eabi-gcc 12.2.1, QEMU 7.2.22"
+FRAMES_SOURCE = "tests/bench/run --record-scenes, arm-none-eabi-gcc 12.2.1, QEMU 7.2.22"
 
 FRAMES: dict[str, tuple[str, dict[str, int]]] = {
-    "S1": ("sphere of 1,024 triangles, Gouraud, depth", {"cortex-m0plus": 2551480, "cortex-m4f": 1402121}),
-    "S2": ("room of 12 triangles, textured, full screen, depth", {"cortex-m0plus": 7057236, "cortex-m4f": 3310177}),
-    "S2-no-depth": ("S2 without depth", {"cortex-m0plus": 5520526, "cortex-m4f": 2333814}),
-    "S3": ("4,000 small triangles, flat, depth", {"cortex-m0plus": 18345484, "cortex-m4f": 8466872}),
+    "S1": (
+        "sphere of 1,024 triangles, Gouraud, depth",
+        {
+            "cortex-m0plus": 2551482,
+            "cortex-m3": 1402807,
+            "cortex-m4f": 1402123,
+            "cortex-m7": 1417857,
+            "cortex-m33": 1404103,
+            "rv32imc": 1779980,
+        },
+    ),
+    "S2": (
+        "room of 12 triangles, textured, full screen, depth",
+        {
+            "cortex-m0plus": 7057238,
+            "cortex-m3": 3332720,
+            "cortex-m4f": 3310179,
+            "cortex-m7": 3321194,
+            "cortex-m33": 3363795,
+            "rv32imc": 4354124,
+        },
+    ),
+    "S2-no-depth": (
+        "S2 without depth",
+        {
+            "cortex-m0plus": 5520528,
+            "cortex-m3": 2349245,
+            "cortex-m4f": 2333816,
+            "cortex-m7": 2345861,
+            "cortex-m33": 2373509,
+            "rv32imc": 3487186,
+        },
+    ),
+    "S3": (
+        "4,000 small triangles, flat, depth",
+        {
+            "cortex-m0plus": 18345486,
+            "cortex-m3": 8465588,
+            "cortex-m4f": 8466874,
+            "cortex-m7": 8483042,
+            "cortex-m33": 8511249,
+            "rv32imc": 10521466,
+        },
+    ),
     "S4": (
         "4,000 triangles of which 403 are on the screen, flat, depth",
-        {"cortex-m0plus": 4956746, "cortex-m4f": 2252635},
+        {
+            "cortex-m0plus": 4956748,
+            "cortex-m3": 2251901,
+            "cortex-m4f": 2252637,
+            "cortex-m7": 2256974,
+            "cortex-m33": 2263288,
+            "rv32imc": 3115058,
+        },
     ),
-    "teapot": ("Newell's teapot, lit, Gouraud-shaded", {"cortex-m0plus": 6023238, "cortex-m4f": 3128454}),
-    "room": ("two textured rooms to walk through", {"cortex-m0plus": 18293778, "cortex-m4f": 8012415}),
-    "solid": ("a truncated icosahedron, one colour per face", {"cortex-m0plus": 1002583, "cortex-m4f": 688628}),
-    "field": ("an island of 2,592 small flat triangles", {"cortex-m0plus": 9847866, "cortex-m4f": 4864841}),
+    "teapot": (
+        "Newell's teapot, lit, Gouraud-shaded",
+        {
+            "cortex-m0plus": 6023240,
+            "cortex-m3": 3122153,
+            "cortex-m4f": 3128456,
+            "cortex-m7": 3142013,
+            "cortex-m33": 3127400,
+            "rv32imc": 3714868,
+        },
+    ),
+    "room": (
+        "two textured rooms to walk through",
+        {
+            "cortex-m0plus": 18293780,
+            "cortex-m3": 8040001,
+            "cortex-m4f": 8012417,
+            "cortex-m7": 8053041,
+            "cortex-m33": 8121436,
+            "rv32imc": 10841443,
+        },
+    ),
+    "solid": (
+        "a truncated icosahedron, one colour per face",
+        {
+            "cortex-m0plus": 1002585,
+            "cortex-m3": 656196,
+            "cortex-m4f": 688668,
+            "cortex-m7": 658581,
+            "cortex-m33": 654644,
+            "rv32imc": 957277,
+        },
+    ),
+    "field": (
+        "an island of 2,592 small flat triangles",
+        {
+            "cortex-m0plus": 9847868,
+            "cortex-m3": 4827416,
+            "cortex-m4f": 4866984,
+            "cortex-m7": 4856674,
+            "cortex-m33": 4835382,
+            "rv32imc": 5555554,
+        },
+    ),
 }
 """Of scenes at 320 x 240: what they are, and instructions of their first frame by core."""
 

@@ -1,10 +1,10 @@
-"""`edgeline bench`: what a link carries; and, with --plot, the chart of what the renderer's steps cost."""
+"""`edgeline bench`: what a link carries; and, with --plot, the charts of what the renderer's steps cost."""
 
 from __future__ import annotations
 
 import argparse
 
-from edgeline import bench_plot
+from edgeline import bench_plot, chart, stage_plot
 from edgeline.commands.options import (
     SubParsers,
     add_command,
@@ -38,16 +38,24 @@ def add_parsers(commands: SubParsers) -> None:
     add_timeout(command, FRAME_TIMEOUT_S, "give up after S seconds without a verified frame")
     add_json(command)
     add_headless(command)
-    chart = command.add_argument_group("a chart of run time against error instead")
-    chart.add_argument("--plot", metavar="IN.json", help="what tests/bench/run --all wrote: accuracy_cost.json")
-    chart.add_argument("-o", "--output", metavar="OUT.png", help="default: bench.png")
+    plot = command.add_argument_group("a chart of run time instead, against error or by stage")
+    plot.add_argument(
+        "--plot", metavar="IN.json", help="what tests/bench/run --all wrote: accuracy_cost or scenes.json"
+    )
+    plot.add_argument("-o", "--output", metavar="OUT.png", help="default: bench.png")
     command.set_defaults(func=_bench)
 
 
 def _bench(options: argparse.Namespace) -> int:
     if options.plot is not None:
         output = options.output or "bench.png"
-        bench_plot.draw(bench_plot.load(options.plot), output)
+        content = chart.load(options.plot)
+        if "frames" in content:
+            stage_plot.draw(stage_plot.check(options.plot, content), output)
+        elif "groups" in content:
+            bench_plot.draw(bench_plot.check(options.plot, content), output)
+        else:
+            raise EdgelineError(f"{options.plot} holds no groups; tests/bench/run --all writes a file that does")
         print(output)
         return 0
     if options.output is not None:

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, size
+from . import codec, compare, frames, models, size, stages, tables
 from .machines import (
     BENCH,
+    CORES,
     MAIN_CORES,
     ROOT,
     BenchError,
@@ -24,7 +25,9 @@ from .machines import (
 )
 
 RESULTS = BENCH / "results"
+SCENES = RESULTS / "scenes.json"
 CODEC = RESULTS / "codec.json"
+QUICK_CORES = (*MAIN_CORES, "rv32imc")
 STATUS_SKIPPED = 77
 
 
@@ -35,10 +38,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument(
         "--quick",
         action="store_true",
-        help="check pictures against the simulator and counts against the results",
+        help="check pictures against the simulator, and figures against the results",
     )
-    what.add_argument("--scenes", action="store_true", help="print the frames' instruction counts")
-    what.add_argument("--profile", metavar="SCENE", help="print which functions a scene's instructions go to")
+    what.add_argument("--scenes", action="store_true", help="print the frames' instruction counts on all cores")
+    what.add_argument("--record-scenes", action="store_true", help="measure the frames, write tests/bench/results")
+    what.add_argument(
+        "--profile", metavar="SCENE", help="print which stages and functions a scene's instructions go to"
+    )
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
@@ -50,27 +56,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     verdicts = frames.Verdicts()
     try:
         check_tools()
-        _run(options, Machines(options.build.resolve()), verdicts)
+        _run(options, options.build.resolve(), verdicts)
     except MissingToolError as error:
         print(f"bench: skipped, {error}")
         return STATUS_SKIPPED
     except BenchError as error:
         print(f"bench: {error}", file=sys.stderr)
         return 2
+    if verdicts.better:
+        print(f"{verdicts.better} figures are better than the recorded ones; record them: {frames.RECORD}")
     if options.profile is None:
         print(f"{verdicts.passed} passed, {verdicts.failed} failed, 0 skipped")
     return 1 if verdicts.failed else 0
 
 
-def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdicts) -> None:
+def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -> None:
+    converted = folder / "models"
+    machines = Machines(folder, converted if models.convert(converted) else None)
     if options.quick:
-        found = frames.measure(machines, verdicts)
-        recorded = read_recorded(RESULTS / "scenes.json")
-        if recorded["compiler"] == compiler_version():
-            frames.compare_with_recorded(found, recorded, verdicts)
-            codec.compare_with_recorded(codec.encode(machines, verdicts), read_recorded(CODEC), verdicts)
-        else:
-            print(f"counts not compared: recorded with gcc {recorded['compiler']}, this is {compiler_version()}")
+        _check(machines, verdicts)
     if options.quick or options.size:
         sizes = size.measure()
         size.check(sizes, read_recorded(size.RESULT), verdicts)
@@ -78,17 +82,13 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
             print(size.table(sizes))
     if options.record_size or options.all:
         size.record(size.measure())
-    if options.scenes or options.all:
-        found = frames.measure(machines, verdicts)
-        for bits in (6, 8):
-            # How bits and the texture's bound act together is of no interest.
-            found += [one for one in frames.measure(machines, verdicts, bits) if one.uv_error_log2 == 3]
-        print(frames.table(found))
-        if options.all:
-            _write_json(RESULTS / "scenes.json", {"frames": frames.rows(found)})
+    if options.scenes:
+        print(tables.instructions(frames.measure(machines, verdicts)))
+    if options.record_scenes or options.all:
+        _record_scenes(machines, verdicts)
     if options.profile is not None:
         for core in MAIN_CORES:
-            _print_profile(core, machines.profile(core, options.profile))
+            _print_profile(machines, core, options.profile)
     if options.codec or options.record_codec or options.all:
         streams = codec.measure(machines, verdicts)
         print(codec.table(streams))
@@ -105,6 +105,39 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
             _plot(RESULTS / "accuracy_cost.json", RESULTS / "accuracy_cost.png")
 
 
+def _check(machines: Machines, verdicts: frames.Verdicts) -> None:
+    """Pictures, counts, memory and code sizes against the recorded ones, on QUICK_CORES."""
+    found = frames.measure(machines, verdicts, QUICK_CORES)
+    recorded = read_recorded(SCENES)
+    if recorded["compilers"] != {core: compiler_version(core) for core in recorded["compilers"]}:
+        print(f"counts not compared: recorded with gcc {recorded['compilers']}")
+        return
+    frames.compare_with_recorded(found, recorded, verdicts)
+    for core in QUICK_CORES:
+        total, was = (sum(sizes.values()) for sizes in (_code_of(machines, core), recorded["code"][core]))
+        verdicts.compare(f"{CORES[core].title}: bytes of code with -O2", total, was, frames.RECORD)
+    codec.compare_with_recorded(codec.encode(machines, verdicts), read_recorded(CODEC), verdicts)
+
+
+def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
+    found = frames.measure(machines, verdicts)
+    for bits in (6, 8):
+        # How bits and the texture's bound act together is of no interest.
+        finer = frames.measure(machines, verdicts, MAIN_CORES, bits)
+        found += [frame for frame in finer if frame.uv_error_log2 == tables.USUAL_UV]
+    code = {core: _code_of(machines, core) for core in CORES}
+    print(tables.instructions(found))
+    compilers = {core: compiler_version(core) for core in CORES}
+    facts = {"compilers": compilers, "peers": frames.PEERS, "targets": frames.TARGETS, "code": code}
+    _write_json(SCENES, {**facts, "frames": frames.rows(found)}, frames.RECORD)
+    SCENES.with_suffix(".md").write_text(tables.document(found, code, frames.RECORD), encoding="utf-8")
+    _plot(SCENES, SCENES.with_suffix(".png"))
+
+
+def _code_of(machines: Machines, core: str) -> dict[str, int]:
+    return size.linked(machines.build(core, "scenes").with_name("scenes.map"))
+
+
 def read_recorded(path: Path) -> dict[str, Any]:
     """A result file. Raises BenchError when it is missing or broken."""
     try:
@@ -114,10 +147,18 @@ def read_recorded(path: Path) -> dict[str, Any]:
     return recorded
 
 
-def _print_profile(core: str, functions: dict[str, int]) -> None:
-    total = sum(functions.values())
+def _print_profile(machines: Machines, core: str, scene: str) -> None:
+    """Of the scene's first frame: instructions by stage, and by function."""
+    measured, profiles = stages.profile(machines, core, "scenes")
+    names = [one.line.words[0] for one in measured]
+    if scene not in names:
+        raise BenchError(f"no scene '{scene}' is measured; there are {', '.join(dict.fromkeys(names))}")
+    counts = profiles[names.index(scene)]
+    program = stages.Program(CORES[core], machines.build(core, "scenes"))
+    total = measured[names.index(scene)].instructions
     print(f"{core}: {total / 1e6:.3f} M instructions")
-    for name, count in functions.items():
+    print("  " + ", ".join(f"{name} {count / 1e6:.3f} M" for name, count in program.split(counts).items()))
+    for name, count in program.by_function(counts).items():
         if count >= total / 200:
             print(f"  {count / 1e6:9.3f} M {count / total:6.1%}  {name}")
 

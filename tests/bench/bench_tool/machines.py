@@ -3,7 +3,6 @@ this computer, where time is taken."""
 
 from __future__ import annotations
 
-import bisect
 import os
 import re
 import shutil
@@ -138,8 +137,10 @@ def qemu_version() -> str:
 class Machines:
     """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, models: Path | None = None) -> None:
+        """`models` is the folder of the models' headers; without, they are not measured."""
         self.folder = folder
+        self.models = models
         self._configured: dict[str, Path] = {}
 
     def native(self, program: str, keep: Path | None = None, bits: int = 4) -> list[Line]:
@@ -166,36 +167,11 @@ class Machines:
         arguments = f"{markers},out={log}"
         if profile is not None:
             arguments += f",code=0x{machine.code:x},profile={profile}"
-        output_of(
-            [
-                *(machine.qemu, "-M", *machine.machine, "-kernel", elf),
-                *("-display", "none", "-monitor", "none", "-serial", "none"),
-                *("-chardev", f"file,id=text,path={text}"),
-                *("-semihosting-config", "enable=on,target=native,chardev=text"),
-                *("-plugin", f"{plugin},{arguments}"),
-            ]
-        )
+        command = [machine.qemu, "-M", *machine.machine, "-kernel", str(elf)]
+        command += ["-display", "none", "-monitor", "none", "-serial", "none", "-chardev", f"file,id=text,path={text}"]
+        command += ["-semihosting-config", "enable=on,target=native,chardev=text", "-plugin", f"{plugin},{arguments}"]
+        output_of(command)
         return pair(parse_lines(text.read_text(encoding="ascii")), log.read_text(encoding="ascii"), core)
-
-    def profile(self, core: str, scene: str) -> dict[str, int]:
-        """Instructions of the scene's first frame, by function; inlined ones count for their caller. The calls that
-        check the picture are left out."""
-        elf = self.build(core, "scenes")
-        path = elf.with_suffix(".profile")
-        names = [one.line.words[0] for one in self.target(core, "scenes", profile=path)]
-        if scene not in names:
-            raise BenchError(f"no scene '{scene}' is measured; there are {', '.join(dict.fromkeys(names))}")
-        # Before the first measurement come start-up and the empty one.
-        section = path.read_text(encoding="ascii").split("next\n")[names.index(scene) + 2]
-        functions = function_addresses(CORES[core], elf)
-        starts = [address for address, _ in functions]
-        found: dict[str, int] = {}
-        for row in section.splitlines():
-            address, count = row.split()
-            name = functions[bisect.bisect_right(starts, int(address, 16)) - 1][1]
-            if not name.startswith(("bench_", "sink_", "el_crc32", "print_")):
-                found[name] = found.get(name, 0) + int(count)
-        return dict(sorted(found.items(), key=lambda item: -item[1]))
 
     def _tree(self, core: str, bits: int) -> Path:
         return self.folder / (core if bits == 4 else f"{core}-{bits}")
@@ -206,6 +182,7 @@ class Machines:
         if str(tree) not in self._configured:
             command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
             command += ["-DCMAKE_C_FLAGS_RELEASE=-O2 -g", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
+            command += [f"-DEDGELINE_BENCH_MODELS={self.models or ''}"]
             if core != "native":
                 command += [f"-DCMAKE_TOOLCHAIN_FILE={CORES[core].toolchain}", f"-DEDGELINE_CPU={core}"]
             output_of(command)
@@ -224,12 +201,6 @@ def parse_lines(text: str) -> list[Line]:
         at = words.index("crc")
         lines.append(Line(tuple(words[:at]), dict(zip(words[at::2], words[at + 1 :: 2], strict=True))))
     return lines
-
-
-def function_addresses(core: Core, elf: Path) -> list[tuple[int, str]]:
-    """Functions in the order of their addresses."""
-    rows = [row.split() for row in output_of([core.tool("nm"), elf]).splitlines()]
-    return sorted((int(row[0], 16) & ~1, row[2]) for row in rows if len(row) == 3 and row[1] in "tTwW")
 
 
 def marker_addresses(core: Core, elf: Path) -> dict[str, int]:

@@ -28,6 +28,9 @@ FLAGS = "-Os"
 # Bytes that a part may grow beyond what is recorded before somebody must look and record anew.
 TOLERANCE = 0.03
 
+# What programs of the benchmark link besides.
+NOT_THE_RENDERER = ("base/crc32.c",)
+
 # What must hold, in bytes.
 BUDGETS = {"all": 16 * 1024}
 
@@ -116,7 +119,8 @@ class Size:
 
 
 def read_map(text: str) -> Size:
-    """What a linker's map says. Objects are named LAYER-FILE.o; other objects are the measured program itself."""
+    """What a linker's map says. Objects are named LAYER-FILE.o, or as CMake names those of the layers' libraries; other
+    objects are the measured program itself."""
     at = text.find("Linker script and memory map")
     if at < 0:
         raise BenchError("the linker's map has no 'Linker script and memory map'; is this GNU ld's?")
@@ -125,7 +129,7 @@ def read_map(text: str) -> Size:
     rows = re.sub(r"\n (\.\S+)\n +", r"\n \1 ", text[at:])
     for length, place in re.findall(r"\n \.(?:text|rodata)\S* +0x[0-9a-f]+ +0x([0-9a-f]+) (\S+)", rows):
         name = place.rsplit("/", 1)[-1]
-        if (own := re.fullmatch(r"(\w+)-(\w+)\.o", name)) is not None:
+        if (own := re.fullmatch(r"(?:libedgeline_)?(\w+)(?:-|\.a\()(\w+)\.(?:c\.obj\)|o)", name)) is not None:
             part, into = f"{own[1]}/{own[2]}.c", size.modules
         elif name.startswith("libgcc.a("):
             part, into = "libgcc", size.modules
@@ -136,6 +140,15 @@ def read_map(text: str) -> Size:
         if int(length, 16) > 0:
             into[part] = into.get(part, 0) + int(length, 16)
     return size
+
+
+def linked(map_file: Path) -> dict[str, int]:
+    """Bytes by module of the renderer in a program that a core's build has linked."""
+    modules = read_map(map_file.read_text(encoding="utf-8")).modules
+    used = {name: size for name, size in modules.items() if name not in NOT_THE_RENDERER}
+    if "raster/list.c" not in used:
+        raise BenchError(f"{map_file.name} has no raster/list.c; build it anew")
+    return dict(sorted(used.items()))
 
 
 class Compiler:

@@ -8,8 +8,8 @@
  * alone call back, so counting costs little.
  *
  * With profile=FILE that file gets, at each `next` and at the end, "ADDRESS COUNT" for every instruction that was executed
- * since the one before, and then "next". The code begins at code=ADDRESS; instructions outside PROFILED_BYTES from there
- * are summed up as "elsewhere COUNT".
+ * between start and stop since the one before, and then "next". The code begins at code=ADDRESS; of what lies outside
+ * PROFILED_BYTES from there, the last halfword has the sum.
  *
  * Debian's QEMU package has no header for plugins, so what is used of the interface, version 1, is declared here as
  * QEMU's documentation has it ("QEMU TCG Plugins", docs/devel/tcg-plugins.rst). */
@@ -46,8 +46,8 @@ typedef struct marker {
     uint64_t address;
 } marker;
 
-static marker markers[] = {{"next", 1}, {"start", 1}, {"stop", 1}};
-enum { MARKERS = sizeof markers / sizeof markers[0] };
+enum { NEXT, START, STOP, MARKERS };
+static marker markers[MARKERS] = {[NEXT] = {"next", 1}, [START] = {"start", 1}, [STOP] = {"stop", 1}};
 
 static uint64_t count;
 static FILE *out;
@@ -55,7 +55,9 @@ static FILE *out;
 /* How often each halfword of code was executed. */
 enum { PROFILED_BYTES = 1 << 20 };
 static uint64_t visits[PROFILED_BYTES / 2];
-static uint64_t elsewhere;
+static uint64_t visits_at_start[PROFILED_BYTES / 2];
+static uint64_t measured[PROFILED_BYTES / 2];
+static size_t profiled; /* halfwords from the first one on, all that were executed among them */
 static uint64_t code_begin;
 static FILE *profile;
 
@@ -64,18 +66,21 @@ static void write_profile(void)
     if (profile == NULL) {
         return;
     }
-    for (size_t i = 0; i < PROFILED_BYTES / 2; i++) {
-        if (visits[i] != 0) {
-            fprintf(profile, "%" PRIx64 " %" PRIu64 "\n", code_begin + 2 * i, visits[i]);
-            visits[i] = 0;
+    for (size_t i = 0; i < profiled; i++) {
+        if (measured[i] != 0) {
+            fprintf(profile, "%" PRIx64 " %" PRIu64 "\n", code_begin + 2 * i, measured[i]);
+            measured[i] = 0;
         }
-    }
-    if (elsewhere != 0) {
-        fprintf(profile, "elsewhere %" PRIu64 "\n", elsewhere);
-        elsewhere = 0;
     }
     fprintf(profile, "next\n");
     fflush(profile);
+}
+
+static void add_stretch(void)
+{
+    for (size_t i = 0; i < profiled; i++) {
+        measured[i] += visits[i] - visits_at_start[i];
+    }
 }
 
 static void ended(qemu_plugin_id_t id, void *data)
@@ -90,8 +95,12 @@ static void arrived(unsigned vcpu, void *data)
     const marker *const at = data;
     (void)vcpu;
     fprintf(out, "%s %" PRIu64 "\n", at->name, count);
-    if (at == &markers[0]) {
+    if (at == &markers[NEXT]) {
         write_profile();
+    } else if (at == &markers[START]) {
+        memcpy(visits_at_start, visits, profiled * sizeof visits[0]);
+    } else {
+        add_stretch();
     }
 }
 
@@ -104,8 +113,9 @@ static void instrument(qemu_plugin_id_t id, struct qemu_plugin_tb *tb)
         const uint64_t address = qemu_plugin_insn_vaddr(insn);
         if (profile != NULL) {
             const uint64_t offset = address - code_begin;
-            uint64_t *const visited = offset < PROFILED_BYTES ? &visits[offset / 2] : &elsewhere;
-            qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, visited, 1);
+            const size_t place = (size_t)(offset < PROFILED_BYTES ? offset : PROFILED_BYTES - 1) / 2;
+            qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, &visits[place], 1);
+            profiled = place < profiled ? profiled : place + 1;
         }
         for (size_t m = 0; m < MARKERS; m++) {
             if (address == markers[m].address) {

@@ -1,0 +1,39 @@
+"""The models of others that are measured: shared/models beside the repository, or where EDGELINE_MODELS says, converted
+as a user converts them."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from .machines import ROOT, MissingToolError, output_of
+
+# By the name in C: the file, and what the converter is told.
+MODELS = {
+    "spot": ("spot_control_mesh.obj", ("--texture", "spot_texture.png")),
+    "suzanne": ("suzanne.obj", ()),
+    "beetle": ("beetle.obj", ()),
+    "newell": ("teapot.obj", ()),
+}
+SCENES = ("model-spot", "model-suzanne", "model-beetle", "model-teapot")
+
+
+def convert(folder: Path) -> bool:
+    """Writes the models' headers into `folder`, as far as they are not there. False where there are no models, which is
+    told; with CI=true that is an error."""
+    source = Path(os.environ.get("EDGELINE_MODELS") or ROOT.parent / "shared" / "models")
+    if not source.is_dir():
+        if os.environ.get("CI") == "true":
+            raise MissingToolError("the models (shared/models beside the repository)")
+        print(f"not measured, shared/models is not beside the repository: {', '.join(SCENES)}")
+        return False
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, (model, extra) in MODELS.items():
+        header = folder / f"{name}.h"
+        words = [source / word if (source / word).is_file() else word for word in (model, *extra)]
+        newest = max(word.stat().st_mtime for word in words if isinstance(word, Path))
+        if not header.is_file() or header.stat().st_mtime < newest:
+            command = [sys.executable, "-m", "edgeline", "convert", *words, "--name", name, "-o", header]
+            output_of(command, {"PYTHONPATH": str(ROOT / "host")})
+    return True
