@@ -53,6 +53,22 @@ def test_a_map_is_read_by_file() -> None:
     assert read.total == 0x3E
 
 
+def test_a_map_of_cmake_s_libraries_is_read_by_file(tmp_path: Path) -> None:
+    rows = [
+        " .text.a  0x00000010  0x20 edgeline/firmware/libedgeline_raster.a(list.c.obj)",
+        " .text.b  0x00000030  0x08 edgeline/firmware/libedgeline_base.a(crc32.c.obj)",
+        " .rodata  0x00000040  0x80 edgeline/firmware/libedgeline_scenes.a(demo_scenes.c.obj)",
+        " .text.c  0x000000c0  0x04 CMakeFiles/scenes.dir/scenes.c.obj",
+        " .text    0x000000d0  0x02 /usr/lib/libgcc.a(_clzsi2.o)",
+    ]
+    path = tmp_path / "scenes.map"
+    path.write_text("\n".join(["Linker script and memory map", "", *rows, ""]))
+    assert size.linked(path) == {"libgcc": 2, "raster/list.c": 0x20}
+    path.write_text("\n".join(["Linker script and memory map", "", *rows[1:], ""]))
+    with pytest.raises(machines.BenchError, match=r"scenes\.map has no raster/list\.c; build it anew"):
+        size.linked(path)
+
+
 def test_a_text_that_is_no_map_is_refused() -> None:
     with pytest.raises(machines.BenchError, match="Linker script and memory map"):
         size.read_map("nothing")

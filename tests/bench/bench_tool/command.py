@@ -71,8 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -> None:
-    converted = folder / "models"
-    machines = Machines(folder, converted if models.convert(converted) else None)
+    machines = Machines(folder, models.convert(folder / "models"))
     if options.quick:
         _check(machines, verdicts)
     if options.quick or options.size:

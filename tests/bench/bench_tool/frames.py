@@ -143,6 +143,8 @@ def measure(machines: Machines, verdicts: Verdicts, cores: Sequence[str] = tuple
         _frame(line, here, bits, count, split)
         for line, here, count, split in zip(lines, native, counts, splits, strict=True)
     ]
+    if missing := [scene for scene in MODEL_SCENES if scene not in {frame.scene for frame in frames}]:
+        print(f"not measured, shared/models is not beside the repository: {', '.join(missing)}")
     _compare_with_each_other(frames, verdicts)
     if bits == 4:
         compare_with_simulator(machines, frames, verdicts)

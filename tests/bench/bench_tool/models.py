@@ -19,15 +19,14 @@ MODELS = {
 SCENES = ("model-spot", "model-suzanne", "model-beetle", "model-teapot")
 
 
-def convert(folder: Path) -> bool:
-    """Writes the models' headers into `folder`, as far as they are not there. False where there are no models, which is
-    told; with CI=true that is an error."""
+def convert(folder: Path) -> Path | None:
+    """Writes the models' headers into `folder`, as far as they are not there, and returns it; None where there are no
+    models. With CI=true that is an error."""
     source = Path(os.environ.get("EDGELINE_MODELS") or ROOT.parent / "shared" / "models")
     if not source.is_dir():
         if os.environ.get("CI") == "true":
-            raise MissingToolError("the models (shared/models beside the repository)")
-        print(f"not measured, shared/models is not beside the repository: {', '.join(SCENES)}")
-        return False
+            raise MissingToolError("no models: shared/models is not beside the repository")
+        return None
     folder.mkdir(parents=True, exist_ok=True)
     for name, (model, extra) in MODELS.items():
         header = folder / f"{name}.h"
@@ -36,4 +35,4 @@ def convert(folder: Path) -> bool:
         if not header.is_file() or header.stat().st_mtime < newest:
             command = [sys.executable, "-m", "edgeline", "convert", *words, "--name", name, "-o", header]
             output_of(command, {"PYTHONPATH": str(ROOT / "host")})
-    return True
+    return folder

@@ -28,6 +28,8 @@ FLAGS = "-Os"
 # Bytes that a part may grow beyond what is recorded before somebody must look and record anew.
 TOLERANCE = 0.03
 
+RENDERER = ("base", "geometry", "raster", "frame")
+
 # What programs of the benchmark link besides.
 NOT_THE_RENDERER = ("base/crc32.c",)
 
@@ -145,6 +147,7 @@ def read_map(text: str) -> Size:
 def linked(map_file: Path) -> dict[str, int]:
     """Bytes by module of the renderer in a program that a core's build has linked."""
     modules = read_map(map_file.read_text(encoding="utf-8")).modules
+    modules = {name: size for name, size in modules.items() if name.split("/")[0] in (*RENDERER, "libgcc")}
     used = {name: size for name, size in modules.items() if name not in NOT_THE_RENDERER}
     if "raster/list.c" not in used:
         raise BenchError(f"{map_file.name} has no raster/list.c; build it anew")
@@ -181,9 +184,8 @@ def measure() -> dict[str, Any]:
     """All parts, as code_size.json has them."""
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         compiler = Compiler(Path(folder))
-        renderer = ("base", "geometry", "raster", "frame")
         options = {
-            name: pool.submit(compiler.link, name, _RENDERER, renderer, left_out) for name, left_out in OPTIONS.items()
+            name: pool.submit(compiler.link, name, _RENDERER, RENDERER, left_out) for name, left_out in OPTIONS.items()
         }
         panels = {
             name: pool.submit(compiler.link, f"panel-{name}", text, ("base", "panel")) for name, text in PANELS.items()
@@ -244,7 +246,7 @@ def record(found: Mapping[str, Any]) -> None:
 
 def table(found: Mapping[str, Any]) -> str:
     """A Markdown table: bytes of each set of options, by layer."""
-    layers = ("base", "geometry", "raster", "frame", "libgcc")
+    layers = (*RENDERER, "libgcc")
     lines = [f"| options | total | {' | '.join(layers)} | libc, apart |", "|---" * (len(layers) + 3) + "|"]
     for name, entry in found["options"].items():
         parts = [sum(size for file, size in entry["modules"].items() if file.startswith(layer)) for layer in layers]

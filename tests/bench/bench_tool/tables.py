@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from .frames import PEERS, TARGETS, Frame
 from .machines import CORES, MAIN_CORES
+from .size import RENDERER
 from .stages import STAGES
 
 USUAL_UV = 3
@@ -115,7 +116,7 @@ def exactness(frames: Sequence[Frame]) -> str:
 
 def code(sizes: Mapping[str, Mapping[str, int]]) -> str:
     """Bytes of code by layer."""
-    layers = ("base", "geometry", "raster", "frame", "libgcc")
+    layers = (*RENDERER, "libgcc")
     rows = [
         [
             CORES[core].title,
