@@ -143,6 +143,9 @@ static const char *const stat_names[] = {
     "bands",
     "flushes",
     "memory_peak",
+    "clusters_outside",
+    "clusters_turned",
+    "triangles_skipped",
 };
 _Static_assert(sizeof stat_names / sizeof stat_names[0] == EL_STATS_COUNT, "a name for each counter");
 

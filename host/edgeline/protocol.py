@@ -39,6 +39,9 @@ COUNTERS = (
     "bands",
     "flushes",
     "memory_peak",
+    "clusters_outside",
+    "clusters_turned",
+    "triangles_skipped",
 )
 """The names of FRAME_END's work counters, in the order of firmware/src/base/stats.h."""
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from edgeline.convert import elm
+from edgeline.convert.clusters import in_order
 from edgeline.convert.header import NamedMesh, c_header
 from edgeline.convert.mesh import Mesh, Texture
 from edgeline.errors import EdgelineError
@@ -25,7 +26,7 @@ def some_mesh(seed: int) -> tuple[Mesh, Texture | None]:
     """A mesh of random numbers with a random selection of everything optional."""
     numbers = np.random.default_rng(seed)
     n, m = int(numbers.integers(3, 40)), int(numbers.integers(1, 60))
-    has = numbers.integers(0, 2, size=5).astype(bool)
+    has = numbers.integers(0, 2, size=6).astype(bool)
     texture = None
     if has[4]:
         height, width = (1 << int(log2) for log2 in numbers.integers(0, 6, size=2))
@@ -39,7 +40,7 @@ def some_mesh(seed: int) -> tuple[Mesh, Texture | None]:
         normals=numbers.integers(-127, 128, size=(n, 3)).astype(np.int8) if has[2] else None,
         uvs=numbers.integers(-32768, 32768, size=(n, 2)).astype(np.int16) if has[3] or has[4] else None,
     )
-    return mesh, texture
+    return in_order(mesh, 7) if has[5] else mesh, texture
 
 
 def same(a: object, b: object) -> bool:

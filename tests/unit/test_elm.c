@@ -250,6 +250,56 @@ static void test_padding_under_a_right_crc(void)
     }
 }
 
+/* Two clusters behind the texels: 2 + 1 triangles, 4 + 1 vertices. */
+enum { CLUSTERS_AT = SIZE, WITH_CLUSTERS = CLUSTERS_AT + 4 + 2 * 18 };
+
+static uint32_t longer_words[WITH_CLUSTERS / 4];
+
+static el_elm_status open_with(const el_cluster clusters[2], uint32_t count)
+{
+    uint8_t *const longer = (uint8_t *)longer_words;
+    put(8, WITH_CLUSTERS, 4);
+    put(CONTENT_AT, 63, 1);
+    memcpy(longer, file, SIZE);
+    memcpy(longer + CLUSTERS_AT, &count, sizeof count);
+    memcpy(longer + CLUSTERS_AT + 4, clusters, 2 * sizeof clusters[0]);
+    const uint32_t crc = el_crc32(0, longer + 16, WITH_CLUSTERS - 16);
+    memcpy(longer + 12, &crc, sizeof crc);
+    return el_elm_open(longer, WITH_CLUSTERS, &mesh, &texture);
+}
+
+static void test_clusters_hold_the_mesh_whole(void)
+{
+    static const el_cluster good[2] = {
+        {.triangle_count = 2, .vertex_count = 4, .centre = {-16384, 7, -8}, .radius = 16700, .spread = 255},
+        {.triangle_count = 1, .vertex_count = 1, .centre = {-16384, 100, 0}, .radius = 16700, .axis = {1, -2, 3}}};
+    TEST_ASSERT_EQUAL_INT(EL_ELM_OK, open_with(good, 2));
+    TEST_ASSERT_EQUAL_UINT16(2, mesh.cluster_count);
+    TEST_ASSERT_EQUAL_PTR((uint8_t *)longer_words + CLUSTERS_AT + 4, mesh.clusters);
+    TEST_ASSERT_EQUAL_INT8(-2, mesh.clusters[1].axis[1]);
+    TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_with(good, 1));
+    TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_with(good, 3));
+    TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_with(good, UINT32_MAX));
+
+    el_cluster bad[2] = {good[0], good[1]};
+    bad[1].triangle_count = 0; /* one triangle is in none */
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+    bad[1].triangle_count = 2; /* one more than there are */
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+    bad[1] = good[1];
+    bad[0].vertex_count = 3;
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+    bad[0].vertex_count = 5;
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+    bad[0] = good[0];
+    bad[1].radius = 16000; /* a corner lies outside */
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+    bad[1] = good[1];
+    bad[1].centre[0] = 32767; /* so does its middle, of the mesh's */
+    bad[1].radius = 65535;
+    TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, open_with(bad, 2));
+}
+
 static void test_scale_range(void)
 {
     for (int scale = -128; scale < 128; scale++) {
@@ -359,6 +409,7 @@ int main(void)
     RUN_TEST(test_a_texture_needs_texture_coordinates);
     RUN_TEST(test_texture_sides_under_a_right_crc);
     RUN_TEST(test_padding_under_a_right_crc);
+    RUN_TEST(test_clusters_hold_the_mesh_whole);
     RUN_TEST(test_scale_range);
     RUN_TEST(test_index_range);
     RUN_TEST(test_the_sphere_holds_every_vertex);

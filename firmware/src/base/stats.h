@@ -28,6 +28,9 @@ typedef struct el_stats {
     uint32_t bands;              /* bands handed to the sinks */
     uint32_t flushes;            /* lists drawn early into a band because they were full */
     uint32_t memory_peak;        /* largest use of the arena, bytes */
+    uint32_t clusters_outside;   /* clusters outside the view, by their spheres */
+    uint32_t clusters_turned;    /* clusters that face away, by their cones */
+    uint32_t triangles_skipped;  /* triangles of both kinds, which were not looked at */
 } el_stats;
 
 static inline void el_count(uint32_t *counter, uint32_t events)

@@ -5,6 +5,7 @@
 #include "frame/bands.h"
 #include "frame/debug_hooks.h"
 #include "geometry/clip.h"
+#include "geometry/cluster.h"
 
 /* The mesh's vertices on the screen, at the end of the list's memory. `direct`: all of them, each transformed once
  * before the triangles are looked at. Otherwise a direct-mapped cache, for meshes that do not fit: a vertex is
@@ -21,6 +22,7 @@ typedef struct drawing {
     el_renderer *renderer;
     const el_mesh *mesh;
     bool direct;
+    bool by_clusters;        /* the mesh has some: vertices of those that are skipped wait */
     el_record_kind kind;     /* of its triangles */
     el_record_kind cut_kind; /* of those that are cut */
     uint32_t slots;          /* of the cache, a power of two */
@@ -38,16 +40,25 @@ static void transform_one(const drawing *d, uint16_t index, el_screen_vertex *sc
     el_count(&d->renderer->stats.vertices, 1);
 }
 
-static void transform_all(const drawing *d)
+static void transform_vertices(const drawing *d, uint32_t begin, uint32_t end)
 {
 #if EL_SMALL_CODE
-    for (uint16_t i = 0; i < d->mesh->vertex_count; i++) {
-        transform_one(d, i, (el_screen_vertex *)d->vertices + i);
+    for (uint32_t i = begin; i < end; i++) {
+        transform_one(d, (uint16_t)i, (el_screen_vertex *)d->vertices + i);
     }
 #else
-    el_transform_vertices(&d->state.transform, d->mesh->positions, d->mesh->vertex_count, d->vertices);
-    el_count(&d->renderer->stats.vertices, d->mesh->vertex_count);
+    el_transform_vertices(&d->state.transform, d->mesh->positions + begin, end - begin,
+                          (el_screen_vertex *)d->vertices + begin);
+    el_count(&d->renderer->stats.vertices, end - begin);
 #endif
+}
+
+/* Vertices that a triangle may ask for, or none. */
+static void leave_for_later(const drawing *d, uint32_t begin, uint32_t end)
+{
+    for (uint32_t i = begin; i < end; i++) {
+        ((el_screen_vertex *)d->vertices)[i].code = EL_CODE_LATER;
+    }
 }
 
 /* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
@@ -76,7 +87,11 @@ static void place_vertices(drawing *d)
     d->vertices = list_end + depth_bytes - bytes;
 
     if (d->direct) {
-        transform_all(d);
+        if (d->by_clusters) {
+            leave_for_later(d, 0, d->mesh->vertex_count);
+        } else {
+            transform_vertices(d, 0, d->mesh->vertex_count);
+        }
         return;
     }
     cached_vertex *const cache = d->vertices;
@@ -364,11 +379,10 @@ static unsigned transform_later(const drawing *d, const uint16_t indices[3], el_
     return codes;
 }
 
-static void draw_triangles(drawing *d)
+static void draw_triangles(drawing *d, uint32_t begin, uint32_t end)
 {
     el_stats *const stats = &d->renderer->stats;
-    const uint32_t count = d->mesh->triangle_count;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         const uint16_t *const vertices = d->mesh->triangles[i];
         el_screen_vertex copies[3];
         el_screen_vertex *v[3];
@@ -387,7 +401,34 @@ static void draw_triangles(drawing *d)
         }
         add_triangle(d, (uint16_t)i, (const el_screen_vertex *const *)v, NULL);
     }
-    el_count(&stats->triangles, count);
+    el_count(&stats->triangles, end - begin);
+}
+
+/* Cluster by cluster, each looked at before its vertices are. */
+static void draw_clusters(drawing *d)
+{
+    el_stats *const stats = &d->renderer->stats;
+    el_cluster_view view;
+    el_cluster_view_make(&view, &d->state.transform, (d->state.material->flags & EL_MATERIAL_TWO_SIDED) != 0);
+    uint32_t vertex = 0;
+    uint32_t triangle = 0;
+    for (uint32_t i = 0; i < d->mesh->cluster_count; i++) {
+        const el_cluster *const cluster = &d->mesh->clusters[i];
+        const uint32_t vertex_end = vertex + cluster->vertex_count;
+        const uint32_t triangle_end = triangle + cluster->triangle_count;
+        const el_cluster_verdict verdict = el_cluster_look(&view, &d->state.transform, cluster);
+        if (verdict == EL_CLUSTER_SEEN) {
+            if (d->direct) {
+                transform_vertices(d, vertex, vertex_end);
+            }
+            draw_triangles(d, triangle, triangle_end);
+        } else {
+            el_count(verdict == EL_CLUSTER_OUTSIDE ? &stats->clusters_outside : &stats->clusters_turned, 1);
+            el_count(&stats->triangles_skipped, cluster->triangle_count);
+        }
+        vertex = vertex_end;
+        triangle = triangle_end;
+    }
 }
 
 /* The bits of el_shading that options.h leaves out. */
@@ -458,8 +499,13 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {
         (void)make_room(renderer);
     }
+    d.by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1;
     place_vertices(&d);
-    draw_triangles(&d);
+    if (d.by_clusters) {
+        draw_clusters(&d);
+    } else {
+        draw_triangles(&d, 0, mesh->triangle_count);
+    }
     el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);
     renderer->list.end = renderer->list_bytes;
     return EL_OK;

@@ -31,23 +31,26 @@ typedef struct elm_header {
 } elm_header;
 
 _Static_assert(sizeof(elm_header) == 32, "the header is the file's, byte for byte");
+_Static_assert(sizeof(el_cluster) == 18, "clusters are the file's, byte for byte");
 
 enum {
     MAJOR_VERSION = 1,
     CRC_FROM = 16,
+    CLUSTERS_FROM = 4, /* behind their number */
     CONTENT_COLOURS = 1,
     CONTENT_TRIANGLE_COLOURS = 2,
     CONTENT_NORMALS = 4,
     CONTENT_UVS = 8,
     CONTENT_TEXTURE = 16,
-    CONTENT_ALL = 31,
+    CONTENT_CLUSTERS = 32,
+    CONTENT_ALL = 63,
     MAX_SIDE_LOG2 = 10,
     MIN_SCALE_LOG2 = -30,
     MAX_SCALE_LOG2 = 8
 };
 
 /* The sections in the file's order; an absent one has no bytes. */
-enum { POSITIONS, TRIANGLES, COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXELS, SECTION_COUNT };
+enum { POSITIONS, TRIANGLES, COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXELS, CLUSTERS, SECTION_COUNT };
 
 typedef struct layout {
     uint32_t offset[SECTION_COUNT]; /* from the beginning of the file, in bytes */
@@ -57,7 +60,8 @@ typedef struct layout {
 
 /* Sizes are added up in 32 bits: the largest mesh with the largest texture stays far below them. */
 _Static_assert(sizeof(elm_header) + EL_MESH_MAX_VERTICES * (6 + 3 + 3 + 4) + EL_MESH_MAX_TRIANGLES * (6 + 3) +
-                       (2 << (2 * MAX_SIDE_LOG2)) + 3 * SECTION_COUNT <
+                       (2 << (2 * MAX_SIDE_LOG2)) + 4 + EL_MESH_MAX_TRIANGLES * (int)sizeof(el_cluster) +
+                       3 * SECTION_COUNT <
                    INT32_MAX,
                "the size of a file fits 31 bits");
 
@@ -66,7 +70,8 @@ static uint32_t padded(uint32_t bytes)
     return (bytes + 3u) & ~3u;
 }
 
-static layout layout_of(const elm_header *header)
+/* `cluster_count`: of the section that says so itself. */
+static layout layout_of(const elm_header *header, uint32_t cluster_count)
 {
     const uint32_t vertices = header->vertex_count;
     const uint32_t triangles = header->triangle_count;
@@ -81,6 +86,8 @@ static layout layout_of(const elm_header *header)
                 [NORMALS] = content & CONTENT_NORMALS ? vertices * 3 : 0,
                 [UVS] = content & CONTENT_UVS ? vertices * 4 : 0,
                 [TEXELS] = content & CONTENT_TEXTURE ? 2u << (header->width_log2 + header->height_log2) : 0,
+                [CLUSTERS] =
+                    content & CONTENT_CLUSTERS ? CLUSTERS_FROM + cluster_count * (uint32_t)sizeof(el_cluster) : 0,
             },
         .size = sizeof(elm_header),
     };
@@ -118,16 +125,41 @@ static bool is_padded_with_zeros(const uint8_t *file, const layout *at)
     return true;
 }
 
-/* Frustum tests trust the sphere: a vertex outside it would make a visible mesh vanish. */
-static bool is_inside_sphere(const int16_t position[3], const elm_header *header)
+/* Frustum tests trust the spheres: a vertex outside would make a visible mesh vanish. */
+static bool is_inside_sphere(const int16_t position[3], const int16_t centre[3], uint16_t radius)
 {
     uint64_t distance_squared = 0; /* at most 3 * 65535^2, which is below 2^34 */
     for (int axis = 0; axis < 3; axis++) {
         /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a mesh has a vertex. */
-        const int64_t d = position[axis] - header->centre[axis];
+        const int64_t d = position[axis] - centre[axis];
         distance_squared += (uint64_t)(d * d);
     }
-    return distance_squared <= (uint64_t)header->radius * header->radius;
+    return distance_squared <= (uint64_t)radius * radius;
+}
+
+/* Clusters hold all triangles and all vertices; their spheres are around their corners, with centres in the mesh's. Cones and altitudes are trusted: a wrong one makes a cluster vanish. */
+static bool has_whole_clusters(const elm_header *header, const int16_t (*positions)[3], const uint16_t (*triangles)[3],
+                               const el_cluster *clusters, uint32_t cluster_count)
+{
+    uint32_t triangle = 0;
+    uint32_t vertices = 0; /* both are at most 61440 * 65535 */
+    for (uint32_t i = 0; i < cluster_count; i++) {
+        const el_cluster *const cluster = &clusters[i];
+        vertices += cluster->vertex_count;
+        const uint32_t end = triangle + cluster->triangle_count;
+        if (end > header->triangle_count || vertices > header->vertex_count ||
+            !is_inside_sphere(cluster->centre, header->centre, header->radius)) {
+            return false;
+        }
+        for (; triangle < end; triangle++) {
+            for (int corner = 0; corner < 3; corner++) {
+                if (!is_inside_sphere(positions[triangles[triangle][corner]], cluster->centre, cluster->radius)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return cluster_count == 0 || (triangle == header->triangle_count && vertices == header->vertex_count);
 }
 
 static bool is_in_range(const elm_header *header, const int16_t (*positions)[3], const uint16_t (*triangles)[3])
@@ -144,11 +176,22 @@ static bool is_in_range(const elm_header *header, const int16_t (*positions)[3],
         }
     }
     for (uint32_t i = 0; i < header->vertex_count; i++) {
-        if (!is_inside_sphere(positions[i], header)) {
+        if (!is_inside_sphere(positions[i], header->centre, header->radius)) {
             return false;
         }
     }
     return true;
+}
+
+/* The number at the beginning of the last section, where that is there; no more than fits the file. */
+static uint32_t cluster_count_of(const elm_header *header, const uint8_t *file, size_t size)
+{
+    const uint32_t at = layout_of(header, 0).offset[CLUSTERS];
+    uint32_t count = 0;
+    if ((header->content & CONTENT_CLUSTERS) != 0 && at <= size - CLUSTERS_FROM) {
+        memcpy(&count, file + at, sizeof count);
+    }
+    return count <= EL_MESH_MAX_TRIANGLES ? count : 0;
 }
 
 /* NULL for a section that is absent: mesh.h's way to say so. */
@@ -178,7 +221,8 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
     if (header.size != size || el_crc32(0, file + CRC_FROM, size - CRC_FROM) != header.crc || !is_consistent(&header)) {
         return EL_ELM_CORRUPT;
     }
-    const layout at = layout_of(&header);
+    const uint32_t cluster_count = cluster_count_of(&header, file, size);
+    const layout at = layout_of(&header, cluster_count);
     if (at.size != size || !is_padded_with_zeros(file, &at)) {
         return EL_ELM_CORRUPT;
     }
@@ -194,8 +238,12 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
         .scale_log2 = header.scale_log2,
         .centre = {header.centre[0], header.centre[1], header.centre[2]},
         .radius = header.radius,
+        .cluster_count = (uint16_t)cluster_count,
+        .clusters =
+            cluster_count != 0 ? (const el_cluster *)(const void *)(file + at.offset[CLUSTERS] + CLUSTERS_FROM) : NULL,
     };
-    if (!is_in_range(&header, view.positions, view.triangles)) {
+    if (!is_in_range(&header, view.positions, view.triangles) ||
+        !has_whole_clusters(&header, view.positions, view.triangles, view.clusters, cluster_count)) {
         return EL_ELM_RANGE;
     }
     *mesh = view;

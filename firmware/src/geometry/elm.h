@@ -3,21 +3,23 @@
  *   offset size  content
  *        0    4  "ELM\x1a"
  *        4    2  major version, 1: a reader refuses another one
- *        6    2  minor version, 0: a reader accepts any
+ *        6    2  minor version, 1: a reader accepts any
  *        8    4  size of the file in bytes
  *       12    4  CRC-32 (zlib's) of the bytes from 16 to the end
  *       16    2  vertex count, 1..65535
  *       18    2  triangle count, 1..61440
  *       20    1  scale_log2, signed, -30..8
- *       21    1  content: 1 vertex colours, 2 triangle colours, 4 normals, 8 texture coordinates, 16 texture;
- *                a texture needs texture coordinates; other bits are 0
+ *       21    1  content: 1 vertex colours, 2 triangle colours, 4 normals, 8 texture coordinates, 16 texture,
+ *                32 clusters (since 1.1); a texture needs texture coordinates; other bits are 0
  *       22    1  texture width_log2, 0..10 (0 without a texture)
  *       23    1  texture height_log2, 0..10 (0 without a texture)
  *       24    6  bounding sphere's centre, 3 x i16
  *       30    2  bounding sphere's radius, u16
  *       32       positions i16[][3], triangles u16[][3], colours u8[][3], triangle colours u8[][3], normals i8[][3],
- *                texture coordinates i16[][2], texels u16[][]: those that are there, in this order, each padded with
- *                zero bytes to a multiple of 4; their meaning is that of mesh.h
+ *                texture coordinates i16[][2], texels u16[][], clusters: those that are there, in this order, each padded
+ *                with zero bytes to a multiple of 4; their meaning is that of mesh.h. Clusters are their number, u32, and
+ *                18 bytes each: triangle count u16, vertex count u16, centre 3 x i16, radius u16, axis 3 x i8, spread u8,
+ *                altitude u16
  *
  * After the last section the file ends. */
 #ifndef EL_GEOMETRY_ELM_H

@@ -21,6 +21,19 @@ typedef struct el_texture {
     uint8_t height_log2;
 } el_texture;
 
+/* A part of a mesh that can be skipped whole: triangles that follow each other, a sphere around them and a cone around
+ * their normals. `edgeline convert` makes them. */
+typedef struct el_cluster {
+    uint16_t triangle_count; /* of the mesh's triangles, those that follow the cluster before */
+    uint16_t vertex_count;   /* of its vertices, likewise: mostly its own; triangles may name any */
+    int16_t centre[3];       /* sphere around all corners of its triangles, in position units; within the mesh's */
+    uint16_t radius;         /* rounded up */
+    int8_t axis[3];          /* of the cone, about 127 long */
+    uint8_t spread;    /* the cone: each normal is within the angle of this sine, times 256 and rounded up, from the
+                                axis; 255: no cone */
+    uint16_t altitude; /* least altitude of a triangle, in position units, rounded down; 0: no cone either */
+} el_cluster;
+
 /* Right-handed model space. A triangle is seen from its front when its vertices run counter-clockwise. Vertices that
  * differ in any attribute are stored apart. Optional arrays are NULL. */
 typedef struct el_mesh {
@@ -36,6 +49,8 @@ typedef struct el_mesh {
     int8_t scale_log2;       /* one position unit is 2^scale_log2 world units; -30 to 8 */
     int16_t centre[3];       /* bounding sphere, in position units */
     uint16_t radius;         /* rounded up; every vertex lies within it */
+    uint16_t cluster_count;
+    const el_cluster *clusters; /* [cluster_count] all triangles and all vertices, in their order; or NULL */
 } el_mesh;
 
 #ifdef __cplusplus

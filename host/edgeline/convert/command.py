@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from edgeline.convert import elm
+from edgeline.convert.clusters import with_clusters
 from edgeline.convert.files import write_whole
 from edgeline.convert.header import NamedMesh, c_header, check_name, name_from
 from edgeline.convert.mesh import MAX_TEXTURE_LOG2, Mesh, Texture, quantise
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 DEFAULT_CREASE = 60.0
 DEFAULT_TEXTURE_SIZE = 128
-MODEL_OPTIONS = ("crease", "no_normals", "texture", "no_texture", "texture_size", "scale", "centre")
+MODEL_OPTIONS = ("crease", "no_normals", "texture", "no_texture", "texture_size", "scale", "centre", "no_clusters")
 """What can be asked of an OBJ; an .elm is passed on as it is."""
 
 
@@ -68,6 +69,11 @@ def add_parser(subparsers: SubParsers) -> None:
     )
     parser.add_argument("--scale", type=float, metavar="FACTOR", help="multiply all coordinates (default: 1)")
     parser.add_argument("--centre", action="store_true", help="move the middle of the bounding box to the origin")
+    parser.add_argument(
+        "--no-clusters",
+        action="store_true",
+        help="keep the model's order of triangles, without the clusters by which hidden parts are skipped",
+    )
     parser.add_argument("--json", action="store_true", help="report as one JSON object")
     parser.set_defaults(func=run)
 
@@ -159,7 +165,8 @@ def convert_obj(args: argparse.Namespace) -> Result:
         result = quantise(soup)
     except EdgelineError as error:
         raise EdgelineError(f"{model.name}: {error}") from error
-    return Result(result.mesh, texture, result.position_error, result.dropped_triangles, notes)
+    mesh = result.mesh if args.no_clusters else with_clusters(result.mesh)
+    return Result(mesh, texture, result.position_error, result.dropped_triangles, notes)
 
 
 def convert_elm(path: Path) -> Result:
@@ -191,6 +198,7 @@ def report(args: argparse.Namespace, name: str, result: Result) -> dict[str, obj
         "name": name,
         "vertices": len(mesh.positions),
         "triangles": len(mesh.triangles),
+        "clusters": 0 if mesh.clusters is None else len(mesh.clusters),
         "dropped_triangles": result.dropped_triangles,
         "flash_bytes": mesh.flash_bytes + texture_bytes,
         "mesh_bytes": mesh.flash_bytes,
@@ -218,6 +226,8 @@ def print_report(facts: dict[str, object], mesh: Mesh, texture: Texture | None) 
     print(f"  {counts}, {facts['flash_bytes']:,} bytes of flash")
     error = f"positions within {facts['position_error']:.2g} of the model's"
     print(f"  unit 2^{mesh.scale_log2}, {error}, radius {facts['radius']:.4g}")
+    if facts["clusters"]:
+        print(f"  {facts['clusters']:,} clusters, skipped where they are outside the view or face away")
     if facts["dropped_triangles"]:
         print(f"  {facts['dropped_triangles']} triangles without an area were dropped")
     for note in facts["notes"] if isinstance(facts["notes"], list) else []:

@@ -12,17 +12,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import MAX_TEXTURE_LOG2, Mesh, Texture
+from edgeline.convert.mesh import CLUSTER, MAX_TEXTURE_LOG2, Mesh, Texture
 from edgeline.errors import EdgelineError
 
 MAGIC = b"ELM\x1a"
-MAJOR, MINOR = 1, 0
+MAJOR, MINOR = 1, 1
 PREFIX = struct.Struct("<4sHHII")
 """Magic, version, size, CRC-32 of all that follows."""
 FIELDS = struct.Struct("<HHbBBB3hH")
 HEADER_BYTES = PREFIX.size + FIELDS.size
 
-COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXTURE = 1, 2, 4, 8, 16
+COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXTURE, CLUSTERS = 1, 2, 4, 8, 16, 32
+COUNT = struct.Struct("<I")
+"""Before the clusters: how many."""
 
 
 def padded(data: bytes) -> bytes:
@@ -45,6 +47,10 @@ def encode(mesh: Mesh, texture: Texture | None = None) -> bytes:
         if array is not None:
             content |= bit
             sections.append(array)
+    clusters = b""
+    if mesh.clusters is not None:
+        content |= CLUSTERS
+        clusters = padded(COUNT.pack(len(mesh.clusters)) + mesh.clusters.tobytes())
     fields = FIELDS.pack(
         len(mesh.positions),
         len(mesh.triangles),
@@ -56,6 +62,7 @@ def encode(mesh: Mesh, texture: Texture | None = None) -> bytes:
         mesh.radius,
     )
     rest = fields + b"".join(padded(s.astype(s.dtype.newbyteorder("<")).tobytes()) for s in sections)
+    rest += clusters
     return PREFIX.pack(MAGIC, MAJOR, MINOR, PREFIX.size + len(rest), zlib.crc32(rest)) + rest
 
 
@@ -77,7 +84,7 @@ def decode(data: bytes) -> tuple[Mesh, Texture | None]:
     )
     has_texture = bool(content & TEXTURE)
     side_limit_log2 = MAX_TEXTURE_LOG2 if has_texture else 0
-    if content > 31 or (has_texture and not content & UVS) or max(width_log2, height_log2) > side_limit_log2:
+    if content > 63 or (has_texture and not content & UVS) or max(width_log2, height_log2) > side_limit_log2:
         raise EdgelineError("the .elm is damaged: its header contradicts itself; convert the model again")
     layout = [
         ("positions", "<i2", (vertices, 3), True),
@@ -100,8 +107,21 @@ def decode(data: bytes) -> tuple[Mesh, Texture | None]:
         view = np.frombuffer(data[offset:end], dtype).reshape(shape)
         arrays[name] = view.astype(view.dtype.newbyteorder("="))
         offset = following
+    clusters = None
+    if content & CLUSTERS:
+        clusters, offset = _clusters(data, offset)
     if offset != size:
         raise EdgelineError("the .elm is damaged: its counts do not agree with its size; convert the model again")
     texels = arrays.pop("texels", None)
-    mesh = Mesh(**arrays, scale_log2=scale_log2, centre=(cx, cy, cz), radius=radius)
+    mesh = Mesh(**arrays, scale_log2=scale_log2, centre=(cx, cy, cz), radius=radius, clusters=clusters)
     return mesh, None if texels is None else Texture(texels)
+
+
+def _clusters(data: bytes, offset: int) -> tuple[npt.NDArray[np.void] | None, int]:
+    """The clusters whose number lies at `offset`, None where it is 0, and the offset behind their padding."""
+    count = COUNT.unpack_from(data, offset)[0] if offset + COUNT.size <= len(data) else 0
+    end = offset + COUNT.size + count * CLUSTER.itemsize
+    following = end + -end % 4
+    if following > len(data) or any(data[end:following]):
+        raise EdgelineError("the .elm is damaged: its counts do not agree with its size; convert the model again")
+    return (np.frombuffer(data[offset + COUNT.size : end], CLUSTER) if count else None), following

@@ -86,6 +86,20 @@ def texture_lines(name: str, texture: Texture) -> list[str]:
     ]
 
 
+def cluster_lines(name: str, clusters: npt.NDArray[np.void]) -> list[str]:
+    """One initialiser per cluster, its members in el_cluster's order."""
+
+    def initialiser(value: object) -> str:
+        return "{" + ",".join(map(initialiser, value)) + "}" if isinstance(value, (tuple, list)) else str(value)
+
+    members = ([m.tolist() if isinstance(m, np.ndarray) else m for m in cluster] for cluster in clusters.tolist())
+    return [
+        f"static const el_cluster {name}_clusters[{len(clusters)}] = {{",
+        *wrap(map(initialiser, members)),
+        "};",
+    ]
+
+
 def mesh_lines(named: NamedMesh) -> list[str]:
     """The arrays of a mesh, then the mesh, then its texture and offset."""
     name, mesh = named.name, named.mesh
@@ -101,6 +115,8 @@ def mesh_lines(named: NamedMesh) -> list[str]:
     lines: list[str] = []
     for c_type, member, array in present:
         lines += array_lines(c_type, f"{name}_{member}", array)
+    if mesh.clusters is not None:
+        lines += cluster_lines(name, mesh.clusters)
     lines += [f"static const el_mesh {name} = {{"]
     lines += [f"    .{member} = {name}_{member}," for _, member, _ in present]
     lines += [
@@ -109,8 +125,10 @@ def mesh_lines(named: NamedMesh) -> list[str]:
         f"    .scale_log2 = {mesh.scale_log2},",
         f"    .centre = {{{', '.join(map(str, mesh.centre))}}},",
         f"    .radius = {mesh.radius},",
-        "};",
     ]
+    if mesh.clusters is not None:
+        lines += [f"    .cluster_count = {len(mesh.clusters)},", f"    .clusters = {name}_clusters,"]
+    lines += ["};"]
     if named.texture is not None:
         lines += texture_lines(name, named.texture)
     if named.offset_q16 is not None:

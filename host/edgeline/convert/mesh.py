@@ -24,6 +24,19 @@ NORMAL_ONE = 127
 TEXEL_ONE = 16
 """One texel in Q12.4."""
 
+CLUSTER = np.dtype(
+    [
+        ("triangle_count", "<u2"),
+        ("vertex_count", "<u2"),
+        ("centre", "<i2", (3,)),
+        ("radius", "<u2"),
+        ("axis", "i1", (3,)),
+        ("spread", "u1"),
+        ("altitude", "<u2"),
+    ]
+)
+"""An `el_cluster`, 18 bytes."""
+
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
@@ -66,6 +79,7 @@ class Mesh:
     uvs: npt.NDArray[np.int16] | None = None  # (n, 2) texels, Q12.4, v down
     centre: tuple[int, int, int] = (0, 0, 0)
     radius: int = -1
+    clusters: npt.NDArray[np.void] | None = None  # (k,) of CLUSTER, all triangles and vertices in their order
 
     def __post_init__(self) -> None:
         n, m = len(self.positions), len(self.triangles)
@@ -91,11 +105,33 @@ class Mesh:
             object.__setattr__(self, "radius", radius)
         elif enclosing_radius(self.positions, self.centre) > self.radius:
             raise EdgelineError("mesh bounding sphere: a vertex lies outside; convert the model again")
+        if self.clusters is not None:
+            self._check_clusters(self.clusters)
+
+    def _check_clusters(self, clusters: npt.NDArray[np.void]) -> None:
+        """Raises EdgelineError where the firmware's reader would refuse them."""
+        sums = [int(clusters[name].astype(np.int64).sum()) for name in ("triangle_count", "vertex_count")]
+        if clusters.dtype != CLUSTER or sums != [len(self.triangles), len(self.positions)]:
+            raise EdgelineError("mesh clusters: they do not add up to its triangles and vertices; convert it again")
+        triangle = 0
+        for cluster in clusters:
+            centre = tuple(int(c) for c in cluster["centre"])
+            named = self.triangles[triangle : triangle + int(cluster["triangle_count"])].reshape(-1)
+            triangle += int(cluster["triangle_count"])
+            offset = sum((c - m) ** 2 for c, m in zip(centre, self.centre, strict=True))
+            if offset > self.radius**2 or (
+                len(named) > 0
+                and enclosing_radius(self.positions[named], (centre[0], centre[1], centre[2])) > int(cluster["radius"])
+            ):
+                raise EdgelineError("mesh clusters: a vertex lies outside of its cluster's sphere; convert it again")
 
     @property
     def flash_bytes(self) -> int:
         """Bytes of the arrays."""
-        arrays = (self.positions, self.triangles, self.colours, self.triangle_colours, self.normals, self.uvs)
+        arrays = (
+            *(self.positions, self.triangles, self.colours, self.triangle_colours, self.normals, self.uvs),
+            self.clusters,
+        )
         return sum(array.nbytes for array in arrays if array is not None)
 
 
@@ -150,7 +186,7 @@ def scale_log2_for(extent: float) -> int:
     return log2
 
 
-def enclosing_radius(positions: npt.NDArray[np.int16], centre: tuple[int, int, int]) -> int:
+def enclosing_radius(positions: npt.NDArray[np.int16] | Ints, centre: tuple[int, int, int]) -> int:
     """The smallest whole radius around `centre` that reaches every position; exact."""
     offsets = positions.astype(np.int64) - np.asarray(centre, dtype=np.int64)
     squared = int((offsets * offsets).sum(axis=1).max())
@@ -158,7 +194,7 @@ def enclosing_radius(positions: npt.NDArray[np.int16], centre: tuple[int, int, i
     return root if root * root == squared else root + 1
 
 
-def bounding_sphere(positions: npt.NDArray[np.int16]) -> tuple[tuple[int, int, int], int]:
+def bounding_sphere(positions: npt.NDArray[np.int16] | Ints, steps: int = 256) -> tuple[tuple[int, int, int], int]:
     """A nearly smallest sphere around `positions`: whole centre, radius rounded up.
 
     Badoiu and Clarkson's iteration ("Smaller core-sets for balls", SODA 2003): step towards the farthest point by
@@ -167,7 +203,7 @@ def bounding_sphere(positions: npt.NDArray[np.int16]) -> tuple[tuple[int, int, i
     points_q8 = positions.astype(np.int64) << 8
     centre_q8 = (points_q8.min(axis=0) + points_q8.max(axis=0)) >> 1
     best: tuple[tuple[int, int, int], int] | None = None
-    for i in range(1, 257):
+    for i in range(1, steps + 1):
         x, y, z = (int(c) for c in (centre_q8 + 128) >> 8)
         radius = enclosing_radius(positions, (x, y, z))
         if best is None or radius < best[1]:
