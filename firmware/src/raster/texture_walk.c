@@ -100,15 +100,15 @@ static bool is_steep(const el_plane *plane)
     return el_abs_u64((int64_t)plane->dx) >= 1ULL << (32 + STEEP_LOG2);
 }
 
-void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t skipped)
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t columns)
 {
     const el_perspective *const p = &triangle->perspective;
     walk->planes = p;
     walk->w = p->w.value + EL_W_MARGIN_Q32;
     walk->u = p->u.value;
     walk->v = p->v.value;
-    if (skipped != 0) {
-        go_on(walk, (uint32_t)skipped);
+    if (columns != 0) {
+        go_on(walk, (uint32_t)columns);
     }
     walk->length = LENGTHS - 1;
     find_knot(walk);

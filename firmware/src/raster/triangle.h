@@ -47,8 +47,10 @@ typedef struct el_perspective {
 typedef struct el_triangle {
     el_surface surface;
     int16_t y;        /* next row */
-    int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none */
+    int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none, or it has begun */
     int16_t y_end;
+    int16_t x_at;        /* the leftmost column that a pixel can be in, for which planes have the row's values */
+    int16_t x_end;       /* the column after the rightmost one */
     bool short_is_left;  /* the side that bends at y_middle */
     el_edge left, right; /* of the current part */
     el_edge lower;       /* the lower part's other edge */
