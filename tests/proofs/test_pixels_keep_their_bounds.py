@@ -1,8 +1,7 @@
-"""raster/rows, raster/gather: what is stepped along a span and down the rows, light, and the packing of a pixel.
+"""raster/spans, fill, fill_texture and gather: steps along a span and down the rows, light, the packing of a pixel.
 
-A plane is followed along the left edge: at the row's first pixel, X = floor(x), it has V = V0 + dx X + dy j, modulo
-2^64. A row further, x grows by the step, X by the step's whole part and by 1 where the fraction runs over, and so does
-V. Where the left edge bends, V and what is added per row change as X and its step do. Channels do the same modulo 2^32.
+A plane is followed down the screen's first column: its value in row j is V = V0 + dy j, and at a span's first pixel x,
+V and dx x, modulo 2^64. Channels do the same modulo 2^32.
 
 Depth is its plane's value, in Q32 modulo 2^64, and 1/2 and a little more than the plane's own error of less than 8161
 units of 2^-32 (see test_planes_are_exact_modulo_2_64). So it is never below the true value and 1/2, and above by less
@@ -24,7 +23,8 @@ from c_values import ArrayType, Cell, Memory
 from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from symbolic import Infeasible, require
 
-ROWS, GATHER = "raster/rows.c", "raster/gather.c"
+SPANS, FILL, TEXTURE, GATHER = "raster/spans.c", "raster/fill.c", "raster/fill_texture.c", "raster/gather.c"
+FILL_H = "raster/fill.h"
 COLOUR_ERROR = 4080  # units of 2^-24, and less
 HALF_Q24 = 128 << 16
 LEAST_COLOUR, MOST_COLOUR = HALF_Q24 - COLOUR_ERROR, (255 << 24) + HALF_Q24 + COLOUR_ERROR
@@ -39,8 +39,7 @@ def test_colours_do_not_wrap() -> None:
 
 # --- along a span -----------------------------------------------------------------------------------------------------
 
-PLANES = ("z", "perspective.w", "perspective.u", "perspective.v")
-CHANNELS = ("rgb.0", "rgb.1", "rgb.2")
+NAMES = {"z": "z", "rgb.0": "red", "rgb.1": "green", "rgb.2": "blue"}
 
 
 def member(triangle: Any, way: str) -> Any:
@@ -50,56 +49,55 @@ def member(triangle: Any, way: str) -> Any:
     return cell
 
 
+def modulus(name: str) -> int:
+    return RING if name == "z" else WORD
+
+
 def any_triangle(machine: Machine) -> Any:
-    """With any planes and channels, each of its own."""
+    """With any depth and channels, each of its own."""
     triangle = machine.struct("el_triangle")
-    for names, most in ((PLANES, RING - 1), (CHANNELS, WORD - 1)):
-        for name in names:
-            for part in ("value", "dx", "down"):
-                machine.put(member(triangle, name).content[part], machine.path.atom(f"{name}.{part}", 0, most))
+    for name in NAMES:
+        for part in ("value", "dx", "dy"):
+            unknown = machine.path.atom(f"{name}.{part}", 0, modulus(name) - 1)
+            machine.put(member(triangle, name).content[part], unknown)
+    machine.put(triangle.content["y"], 0)
+    machine.put(triangle.content["y_end"], machine.path.choose(machine.path.atom("y_end", 0, 1)))
     return triangle
 
 
-def parts(machine: Machine, triangle: Any) -> dict[str, tuple[Poly, Poly, Poly]]:
-    """value, dx and down of each plane and channel."""
-    return {
-        name: (
-            machine.poly(member(triangle, name), "value"),
-            machine.poly(member(triangle, name), "dx"),
-            machine.poly(member(triangle, name), "down"),
-        )
-        for name in (*PLANES, *CHANNELS)
-    }
-
-
-def modulus(name: str) -> int:
-    return WORD if name in CHANNELS else RING
-
-
 def kind(machine: Machine, *names: str) -> Number:
-    return machine.exactly("uint32_t", sum(machine.constant(machine.unit.constants[name]) for name in names))
+    return machine.exactly(
+        "uint32_t", sum(machine.constant(machine.unit.constants[f"EL_FILL_{name}"]) for name in names)
+    )
 
 
-def span_domain(machine: Machine) -> list[Any]:
-    skipped = machine.number("int32_t", "skipped", 0, 4080)
-    return [Pointer([any_triangle(machine)]), skipped, kind(machine, "DEPTH", "COLOURS")]
+ROWS: dict[int, tuple[Any, Any]] = {}  # the triangle, and its slopes
 
 
-def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
-    """The start is the value there, of depth and 1/2 and more than its error; a step of the loop adds dx."""
-    triangle, skipped, of = arguments
-    names = {"z": "z", "rgb.0": "red", "rgb.1": "green", "rgb.2": "blue"}
-    numbers = parts(machine, triangle.cell)
-    before = {}
-    for name, stepped in names.items():
+def row_domain(machine: Machine) -> list[Any]:
+    triangle = any_triangle(machine)
+    of = kind(machine, "DEPTH", "COLOURS")
+    slopes = machine.call("el_slopes_of", Pointer([triangle]), of)
+    ROWS[id(machine.path)] = triangle, slopes
+    return [Pointer([slopes]), machine.number("int32_t", "x", 0, 4080), of]
+
+
+def row_check(machine: Machine, arguments: list[Any], result: Any) -> None:
+    """A span starts with the value there, of depth and 1/2 and more than its error; steps add dx and dy.
+
+    What a row further has is kept if there is one.
+    """
+    triangle, slopes = ROWS.pop(id(machine.path))
+    x, of = arguments[1].poly, arguments[2]
+    numbers = {
+        name: tuple(machine.poly(member(triangle, name), part) for part in ("value", "dx", "dy")) for name in NAMES
+    }
+    before = {name: machine.poly(result, stepped) for name, stepped in NAMES.items()}
+    for name in NAMES:
         value, dx, _ = numbers[name]
-        before[name] = machine.poly(result, stepped)
-        added = before[name] - value
-        # Depth has a path of its own for no pixel.
-        if name != "z" or machine.path.bounds(skipped.poly)[1] > 0:
-            added -= dx * skipped.poly
+        added = before[name] - value - dx * x
         half = added.terms.get((), 0) % modulus(name)
-        congruent(added, Poly.of(half), modulus(name), "the value at the first pixel of the screen, and")
+        congruent(added, Poly.of(half), modulus(name), "the value at that pixel, and")
         if name == "z":
             require(
                 (1 << 31) + contracts.PLANE_ERROR <= half <= (1 << 32) - contracts.PLANE_ERROR,
@@ -107,93 +105,92 @@ def span_check(machine: Machine, arguments: list[Any], result: Any) -> None:
             )
         else:
             require(half == 0, "nothing: its half is in it")
-    machine.call("span_step", Pointer([result]), of)
-    for name, stepped in names.items():
-        congruent(machine.poly(result, stepped), before[name] + numbers[name][1], modulus(name), "a step adds it")
+    machine.call("el_values_add", Pointer([result]), Pointer([slopes.content["per_column"]]), of)
+    for name, stepped in NAMES.items():
+        congruent(machine.poly(result, stepped), before[name] + numbers[name][1], modulus(name), "a pixel further")
+    machine.call("el_values_add", Pointer([slopes.content["first"]]), Pointer([slopes.content["per_row"]]), of)
+    machine.call("el_slopes_keep", Pointer([slopes]), Pointer([triangle]), of)
+    for name in NAMES:
+        value, _, dy = numbers[name]
+        kept = value + dy if machine.poly(triangle, "y_end").known else value
+        congruent(machine.poly(member(triangle, name), "value"), kept, modulus(name), "a row further")
 
 
-SPAN_MODULAR = ["span_begin", "span_step"]
-SPAN = Subject(
-    ROWS,
-    "span_begin",
-    span_domain,
-    span_check,
-    modular=SPAN_MODULAR,
-    contracts={"el_plane_times": contracts.plane_times},
+ROW_MODULAR = ["el_slopes_of", "el_slopes_keep", "el_values_at", "el_values_add", "el_multiply_u16"]
+ROW = Subject(FILL, "el_values_at", row_domain, row_check, modular=ROW_MODULAR)
+
+
+def perspective_domain(machine: Machine) -> list[Any]:
+    perspective = machine.struct("el_perspective")
+    for name in "wuv":
+        for part in ("value", "dx", "dy"):
+            machine.put(perspective.content[name].content[part], machine.path.atom(f"{name}.{part}", 0, RING - 1))
+    BEFORE[id(machine.path)] = {name: machine.poly(perspective, name, "value") for name in "wuv"}
+    return [Pointer([perspective])]
+
+
+def perspective_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    before = BEFORE.pop(id(machine.path))
+    for name in "wuv":
+        plane = arguments[0].cell.content[name]
+        congruent(machine.poly(plane, "value"), before[name] + machine.poly(plane, "dy"), RING, "a row further")
+
+
+BEFORE: dict[int, dict[str, Poly]] = {}
+PERSPECTIVE = Subject(
+    TEXTURE,
+    "el_perspective_next_row",
+    perspective_domain,
+    perspective_check,
+    modular=["el_perspective_next_row"],
 )
 
-# --- down the rows ----------------------------------------------------------------------------------------------------
-
-Edge = tuple[Poly, Poly, Poly, Poly]  # whole and fraction of x, of the step
-WALKS: dict[int, tuple[dict[str, Edge], dict[str, tuple[Poly, Poly, Poly]]]] = {}
+# --- where the lower part begins --------------------------------------------------------------------------------------
 
 
-def walk_domain(machine: Machine) -> list[Any]:
-    """Edges anywhere that a row of theirs or the row after can be, with any step."""
+def bend_domain(machine: Machine) -> list[Any]:
+    """Edges anywhere, with any step."""
     path = machine.path
-    guard = machine.constant(machine.unit.constants["EL_GUARD_SUB"])
-    triangle = any_triangle(machine)
-    edges = {}
-    for name in ("left", "right", "lower"):
-        x = path.atom(f"{name}.x", -2041 - 2 * guard, 2041 + 2 * guard)
-        step = path.atom(f"{name}.step", -2 * guard, 2 * guard)
-        fraction, part = path.atom(f"{name}.fraction", 0, WORD - 1), path.atom(f"{name}.part", 0, WORD - 1)
-        machine.put(triangle.content[name].content["x_q32"], x * WORD + fraction)
-        machine.put(triangle.content[name].content["step_q32"], step * WORD + part)
-        edges[name] = (x, fraction, step, part)
+    triangle = machine.struct("el_triangle")
+    edges = {"left": machine.struct("el_edge"), "right": machine.struct("el_edge"), "lower": triangle.content["lower"]}
+    for name, edge in edges.items():
+        for part in ("x_q32", "step_q32"):
+            machine.put(edge.content[part], path.atom(f"{name}.{part}", -(2**63), 2**63 - 1))
     machine.put(triangle.content["short_is_left"], path.choose(path.atom("short_is_left", 0, 1)))
-    WALKS[id(path)] = (edges, parts(machine, triangle))
-    return [Pointer([triangle]), kind(machine, "DEPTH", "COLOURS", "TEXTURE")]
+    EDGES[id(path)] = {name: numbers_of(machine, edge) for name, edge in edges.items()}
+    return [Pointer([triangle]), Pointer([edges["left"]]), Pointer([edges["right"]])]
 
 
-def row_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    path = machine.path
-    edges, before = WALKS.pop(id(path))
-    triangle = arguments[0].cell
-    for name in ("left", "right"):
-        x, fraction, step, part = edges[name]
-        moved = machine.poly(triangle, name, "x_q32") - (x + step) * WORD - fraction - part
-        path.prove(moved, "a step further", zero=True)
-    _, fraction, step, part = edges["left"]
-    carry = path.choose(path.floor(fraction + part, WORD))
-    for name, (value, dx, down) in parts(machine, triangle).items():
-        # V0 + dx X + dy j, with dy = down - dx step: X grows by the step and the carry, j by 1.
-        dy = before[name][2] - dx * step
-        congruent(value, before[name][0] + dx * (step + carry) + dy, modulus(name), "V is that of the new X")
-        require((down - before[name][2]).constant == 0, "the rest is as it was")
+EDGES: dict[int, dict[str, tuple[Poly, Poly]]] = {}
+
+
+def numbers_of(machine: Machine, edge: Any) -> tuple[Poly, Poly]:
+    return machine.poly(edge, "x_q32"), machine.poly(edge, "step_q32")
 
 
 def bend_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    path = machine.path
-    edges, before = WALKS.pop(id(path))
-    triangle = arguments[0].cell
+    """One side goes on as the lower edge, the other as it was; it does not happen again."""
+    triangle, left, right = (argument.cell for argument in arguments)
+    before = EDGES.pop(id(machine.path))
     bends = machine.poly(triangle, "short_is_left").known
-    side = "left" if bends else "right"
-    x, fraction, step, part = edges["lower"]
-    path.prove(machine.poly(triangle, side, "x_q32") - x * WORD - fraction, "the lower edge", zero=True)
-    path.prove(machine.poly(triangle, side, "step_q32") - step * WORD - part, "the lower edge", zero=True)
-    for name, (value, dx, down) in parts(machine, triangle).items():
-        aside, steeper = (x - edges["left"][0], step - edges["left"][2]) if bends else (Poly.of(0), Poly.of(0))
-        congruent(value, before[name][0] + dx * aside, modulus(name), "V is that of the new X")
-        congruent(down - dx * steeper, before[name][2], modulus(name), "dy is as it was")
+    for side, of in ((left, "lower" if bends else "left"), (right, "right" if bends else "lower")):
+        for got, expected in zip(numbers_of(machine, side), before[of], strict=True):
+            require((got - expected).constant == 0, f"it is {of}")
+    require(machine.poly(triangle, "y_middle").known == 2**15 - 1, "no middle is left")
 
 
-WALK_MODULAR = ["plane_next_row", "channel_next_row", "next_row", "bend_plane", "bend", "el_plane_times"]
-ROW = Subject(ROWS, "next_row", walk_domain, row_check, modular=WALK_MODULAR)
-BEND = Subject(
-    ROWS, "bend", walk_domain, bend_check, modular=WALK_MODULAR, contracts={"el_plane_times": contracts.plane_times}
-)
+BEND = Subject(SPANS, "bend", bend_domain, bend_check)
 
 # --- a pixel ----------------------------------------------------------------------------------------------------------
 
 
 def light(machine: Machine) -> Pointer:
     channels = {name: machine.path.atom(name, LEAST_COLOUR, MOST_COLOUR) for name in ("red", "green", "blue")}
-    return Pointer([machine.struct("span", **channels)])
+    return Pointer([machine.struct("el_values", **channels)])
 
 
 def kind_of(machine: Machine, dither: bool) -> Number:
-    return machine.exactly("uint32_t", machine.constant(machine.unit.constants["DITHER"]) if dither else 0)
+    return machine.exactly("uint32_t", machine.constant(machine.unit.constants["EL_FILL_DITHER"]) if dither else 0)
 
 
 def threshold(machine: Machine) -> Number:
@@ -219,13 +216,13 @@ def coloured_domain(dither: bool) -> Any:
 
 
 def modulate(dither: bool) -> Subject:
-    modular = ["fraction_q16", "el_dither"] if dither else []
-    return Subject(ROWS, "modulate", modulate_domain(dither), modular=modular, packs=True)
+    modular = ["el_fraction_q16", "el_dither"] if dither else []
+    return Subject(TEXTURE, "modulate", modulate_domain(dither), modular=modular, packs=True)
 
 
 def coloured(dither: bool) -> Subject:
-    modular = ["fraction_q16", "el_dither"] if dither else []
-    return Subject(ROWS, "coloured", coloured_domain(dither), modular=modular, packs=True)
+    modular = ["el_fraction_q16", "el_dither"] if dither else []
+    return Subject(FILL, "coloured", coloured_domain(dither), modular=modular, packs=True)
 
 
 def texel_domain(machine: Machine) -> list[Any]:
@@ -236,7 +233,7 @@ def texel_domain(machine: Machine) -> list[Any]:
     return [Pointer([source]), machine.number("uint32_t", "u_q16"), machine.number("uint32_t", "v_q16")]
 
 
-TEXEL = Subject(ROWS, "texel_at", texel_domain)
+TEXEL = Subject(TEXTURE, "texel_at", texel_domain)
 
 # --- light and corners ------------------------------------------------------------------------------------------------
 
@@ -384,8 +381,8 @@ def points_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 
 
 SUBJECTS = {
-    "span": SPAN,
     "row": ROW,
+    "perspective": PERSPECTIVE,
     "bend": BEND,
     "modulate": modulate(False),
     "modulate, dithered": modulate(True),
@@ -406,29 +403,35 @@ def test_all_values(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["span", "row", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
+    "name", ["row", "perspective", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
 )
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
-    modular = [*subject.modular, *SPAN_MODULAR, *WALK_MODULAR, "el_multiply_u64"]
-    Subject(subject.file, subject.function, subject.domain, modular=modular).agree(count=200)
+    Subject(subject.file, subject.function, subject.domain, modular=subject.modular).agree(count=200)
 
 
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("span", ROWS, "(1U << 13)", "(1U << 12)"),
-        ("span", ROWS, "s->z += s->z_step;", "s->z += s->z_step + 1U;"),
-        ("span", ROWS, "s->green += s->green_step", "s->green += s->blue_step"),
-        ("row", ROWS, "triangle->left.x_q32 < fraction", "triangle->left.x_q32 <= fraction"),
-        ("row", ROWS, "(carry ? channel->dx : 0U)", "(carry ? 0U : channel->dx)"),
-        ("bend", ROWS, "plane->down += el_plane_times(plane->dx, steeper)", "plane->down += plane->dx"),
-        ("bend", ROWS, "bend_plane(&triangle->perspective.v, aside", "bend_plane(&triangle->perspective.u, aside"),
-        ("modulate", ROWS, "(light >> 24) + 1U", "(light >> 24) + 10U"),
-        ("coloured", ROWS, "s->green >> 26 << 5", "s->green >> 25 << 5"),
+        ("row", FILL_H, "(1U << 13)", "(1U << 12)"),
+        ("row", FILL_H, "values->z += step->z;", "values->z += step->z + 1U;"),
+        ("row", FILL_H, "values->green += step->green", "values->green += step->blue"),
+        ("row", FILL_H, "s->per_column.blue * columns", "s->per_column.red * columns"),
+        ("row", FILL_H, "s.per_row.red = rgb[0].dy", "s.per_row.red = rgb[0].dx"),
+        ("row", FILL_H, "s->first.z - EL_HALF_Q32", "s->first.z"),
+        (
+            "perspective",
+            FILL_H,
+            "perspective->v.value += perspective->v.dy",
+            "perspective->v.value += perspective->u.dy",
+        ),
+        ("bend", SPANS, "*left = triangle->lower", "*right = triangle->lower"),
+        ("bend", SPANS, "triangle->y_middle = INT16_MAX", "triangle->y_middle = 0"),
+        ("modulate", TEXTURE, "(light >> 24) + 1U", "(light >> 24) + 10U"),
+        ("coloured", FILL, "v->green >> 26 << 5", "v->green >> 25 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
-        ("texel", ROWS, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
-        ("texel", ROWS, "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),
+        ("texel", TEXTURE, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
+        ("texel", TEXTURE, "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),
         ("light", GATHER, "value > 0xFF00U ? 0xFF00U", "value > 0xFF01U ? 0xFF00U"),
         ("lit", GATHER, "light + 127U", "light + 128U"),
         ("lit", GATHER, "rest + 1U + (rest >> 8)", "rest + (rest >> 8)"),

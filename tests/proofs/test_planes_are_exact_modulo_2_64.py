@@ -6,10 +6,9 @@ modulo 2^64,
 
     Z = f v0 + Qo + Qx (i - column) + Qy (j - row)
 
-where Qo, Qx, Qy are quotients by A, truncated: its value at the first pixel, dx to the side, and down, which is Qy and
-Qx times the left edge's whole step. From X = S (i - column) + to_centre_x, Z A differs from the plane by
-eo + ex (i - column) + ey (j - row), where an e is what a truncation cut off, below A: Z is off by less than
-1 + 4080 + 4080 units of 2^-32 on any pixel of the largest screen.
+where Qo, Qx, Qy are quotients by A, truncated: its value at the first pixel, dx to the side, and dy down. From
+X = S (i - column) + to_centre_x, Z A differs from the plane by eo + ex (i - column) + ey (j - row), where an e is what
+a truncation cut off, below A: Z is off by less than 1 + 4080 + 4080 units of 2^-32 on any pixel of the largest screen.
 
 At a covered pixel the plane's value is a mean of the corners' with weights that are not negative, the edge functions
 over A, so it lies between the corners' values, which fit 32 bits: that is why the modulus loses nothing.
@@ -139,7 +138,6 @@ class State:
     values: list[Poly]
     first_x: Poly
     first_row: Poly
-    step: Poly  # the left edge's, in whole pixels
     area: Poly
     quotients: Quotients
     by_parts: bool  # quotients per sub-pixel
@@ -169,11 +167,10 @@ CENTRES: dict[int, list[Poly]] = {}
 
 def frame_of(
     machine: Machine, x: list[Poly], y: list[Poly], area: Poly, small: bool
-) -> tuple[Any, tuple[Poly, Poly, Poly, Poly]]:
-    """A frame at any first pixel of the left edge's, with any of its steps."""
-    path, guard = machine.path, machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+) -> tuple[Any, tuple[Poly, Poly, Poly]]:
+    """A frame at any first pixel."""
+    path = machine.path
     first = path.atom("first_x", -2041, 2041), path.atom("first_row", 0, SCREEN - 1)
-    step = path.atom("step", -2 * guard - 1, 2 * guard)
     if area.constant is not None:
         path.assume(area * area - 1)
         frame = machine.struct("el_plane_frame")
@@ -185,16 +182,16 @@ def frame_of(
         for i in (1, 2):
             machine.put(frame.content[f"dx{i}"], x[i] - x[0])
             machine.put(frame.content[f"dy{i}"], y[i] - y[0])
-    for name, value in zip(("x", "row", "step"), (*first, step), strict=True):
+    for name, value in zip(("x", "row"), first, strict=True):
         machine.put(frame.content[name], value)
-    return frame, (*first, step, area * sign)
+    return frame, (*first, area * sign)
 
 
 def prepared(machine: Machine, values: list[Poly], corner: Any, small: bool) -> Any:
     """The frame; what was made from it is kept for the check."""
     x, y, area = corner
     frame, numbers = frame_of(machine, x, y, area, small)
-    quotients = Quotients(numbers[3])
+    quotients = Quotients(numbers[2])
     exact = {
         "anchor_of": anchored,
         "divide": quotients.divide,
@@ -325,9 +322,9 @@ def at_pixel(machine: Machine, plane: Any, made: Sum) -> Poly:
     path, state = machine.path, STATES[id(machine.path)]
     scale = machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // SCREEN
     column, row = path.floor(state.x[0], scale), path.floor(state.y[0], scale)
-    dx, down = machine.poly(plane["dx"]), machine.poly(plane["down"])
+    dx, dy = machine.poly(plane["dx"]), machine.poly(plane["dy"])
     aside = dx * (made.columns + column - state.first_x)
-    return machine.poly(plane["value"]) + aside + (down - dx * state.step) * (made.rows + row - state.first_row)
+    return machine.poly(plane["value"]) + aside + dy * (made.rows + row - state.first_row)
 
 
 def plane_check(machine: Machine, arguments: list[Any], _: Any) -> None:
@@ -483,10 +480,10 @@ def test_the_compiler_agrees_on_small_triangles(make: Any, core: str) -> None:
 
 @EVERY_PRECISION
 def test_the_proof_can_fail(bits: int) -> None:
-    # A wrong row, a width too small, and a step too many.
+    # A wrong row, a width too small, and a column too many.
     plane(False).fails_with(Fault(FILE, ".rows = frame->row - row,", ".rows = frame->row - row - 1,"), bits)
     plane(True).fails_with(Fault(FILE, "int64_t a = (d1 * frame->dy2", "int64_t a = 8 * (d1 * frame->dy2"), bits)
-    plane(False).fails_with(Fault(FILE, "(g->dx, frame->step);", "(g->dx, frame->step + 1);"), bits)
+    plane(False).fails_with(Fault(FILE, "(g->dx, at->columns)", "(g->dx, at->columns + 1)"), bits)
     colour(False).fails_with(Fault(FILE, "(value + 0x8000U) >> 16", "(value + 0x7FFFU) >> 16"), bits)
     DIVIDE.fails_with(Fault(FILE, "value >> fraction_bits", "value / (1 << fraction_bits) + 1"), bits)
 

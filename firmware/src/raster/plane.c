@@ -122,11 +122,10 @@ static void small_gradient(gradient *g, const el_plane_frame *frame, const ancho
 #endif
 }
 
-static void start_plane(el_plane *plane, const el_plane_frame *frame, const anchor *at, const gradient *g,
-                        uint64_t first_q32)
+static void start_plane(el_plane *plane, const anchor *at, const gradient *g, uint64_t first_q32)
 {
     plane->dx = g->dx;
-    plane->down = g->dy + el_plane_times(g->dx, frame->step);
+    plane->dy = g->dy;
     plane->value = first_q32 + g->offset + el_plane_times(g->dx, at->columns) + el_plane_times(g->dy, at->rows);
 }
 
@@ -135,7 +134,7 @@ void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t v
     const anchor at = anchor_of(frame);
     gradient g;
     wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], fraction_bits, false);
-    start_plane(plane, frame, &at, &g, (uint64_t)values[0] << (32U - fraction_bits));
+    start_plane(plane, &at, &g, (uint64_t)values[0] << (32U - fraction_bits));
 }
 
 void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint16_t values[3])
@@ -143,7 +142,7 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
     const anchor at = anchor_of(frame);
     gradient g;
     small_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0]);
-    start_plane(plane, frame, &at, &g, (uint64_t)values[0] << 32);
+    start_plane(plane, &at, &g, (uint64_t)values[0] << 32);
 }
 
 /* From 8.8 in Q32 to 8.24, rounded; negative numbers modulo 2^32. */
@@ -160,7 +159,7 @@ void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uin
     const uint32_t dx = to_q24(g.dx);
     const uint32_t dy = to_q24(g.dy);
     channel->dx = dx;
-    channel->down = dy + dx * (uint32_t)frame->step;
+    channel->dy = dy;
     channel->value = ((uint32_t)values[0] << 16) + EL_CHANNEL_HALF + to_q24(g.offset) + dx * (uint32_t)at.columns +
                      dy * (uint32_t)at.rows;
 }

@@ -17,17 +17,17 @@
 extern "C" {
 #endif
 
-/* It is followed along the triangle's left edge, which moves by its whole step per row, or by a pixel more. */
+/* It is followed down the screen's first column: every pixel is in it or to the right. */
 typedef struct el_plane {
-    uint64_t value; /* at the centre of the row's first pixel */
+    uint64_t value; /* at the centre of that column's pixel in the triangle's next row */
     uint64_t dx;    /* per pixel to the right */
-    uint64_t down;  /* per row down and the left edge's whole step to the side */
+    uint64_t dy;    /* per row down */
 } el_plane;
 
 /* A colour channel in the same way: 0..255 in 8.24, modulo 2^32, with 1/2 added. Gradients are rounded to 2^-24, so the
  * error at any pixel is below 2^-25 * 8160 < 2^-12. */
 typedef struct el_channel {
-    uint32_t value, dx, down;
+    uint32_t value, dx, dy;
 } el_channel;
 
 #define EL_CHANNEL_HALF (1U << 23)
@@ -49,7 +49,6 @@ typedef struct el_plane_frame {
     int32_t dx1, dy1; /* from the first to the second corner */
     int32_t dx2, dy2; /* from the first to the third */
     int32_t x, row;   /* the pixel that the planes start at */
-    int32_t step;     /* whole pixels per row, of the left edge */
     int32_t sign;     /* of the doubled area */
     bool small;       /* all differences within +-EL_SMALL_SUB: 32 bits are enough for values of 16 */
     el_area area;
@@ -59,7 +58,7 @@ typedef struct el_plane_frame {
  * 2^-32 in sum. */
 enum { EL_SMALL_SUB = EL_SUBPIXEL_BITS == 4 ? 1023 : -1 };
 
-/* Corners in 1/EL_SUBPIXELS px, not in a line. x, row and step are the caller's to set. */
+/* Corners in 1/EL_SUBPIXELS px, not in a line. x and row are the caller's to set. */
 void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3]);
 
 /* The plane through values[i] * 2^-fraction_bits, |values[i]| < 2^(31 + fraction_bits); fraction_bits is 0 or

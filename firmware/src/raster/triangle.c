@@ -120,6 +120,8 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
     triangle->y = (int16_t)y_begin;
     triangle->y_middle = (int16_t)y_middle;
     triangle->y_end = (int16_t)y_end;
+    triangle->x_begin = (int16_t)el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
+    triangle->x_end = (int16_t)el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
     /* With y down, a positive area means that the middle corner is on the right of the long edge. */
     triangle->short_is_left = area < 0;
     el_edge *const short_edge = triangle->short_is_left ? &triangle->left : &triangle->right;
@@ -139,9 +141,8 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
 
     el_plane_frame frame;
     el_plane_frame_make(&frame, x, y);
-    frame.x = el_edge_x(&triangle->left);
+    frame.x = 0;
     frame.row = y_begin;
-    frame.step = (int32_t)(triangle->left.step_q32 >> 32);
     make_planes(triangle, sorted, &frame);
     return true;
 }

@@ -21,10 +21,10 @@ enum { BATCH = 64 };
 /* A plane's value at pixel x of the triangle's current row. */
 BENCH_INLINE uint64_t plane_at(const el_triangle *triangle, const el_plane *plane, int32_t x)
 {
-    return plane->value + plane->dx * (uint64_t)(int64_t)(x - el_edge_x(&triangle->left));
+    return plane->value + plane->dx * (uint64_t)(int64_t)x;
 }
 
-/* Steps the triangle over all of its rows as raster/rows.c does. */
+/* Steps the triangle over all of its rows. */
 BENCH_INLINE void draw_spans(el_triangle *triangle, const span_target *picture, unsigned values, span_function *span)
 {
     while (triangle->y < triangle->y_end) {

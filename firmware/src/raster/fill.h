@@ -1,0 +1,154 @@
+/* What the fills share: where pixels go, and what is linear on the screen. A fill draws the spans of some rows; edges are
+ * behind it (spans.h). Private to this layer. */
+#ifndef EL_RASTER_FILL_H
+#define EL_RASTER_FILL_H
+
+#include "raster/spans.h"
+
+/* What a fill does: bits of a number that the compiler knows, so that each loop holds only what it needs. What options.h
+ * leaves out has no bit. */
+enum {
+    EL_FILL_DEPTH = 1,
+    EL_FILL_COLOURS = EL_WITH_GOURAUD ? 2 : 0,
+    EL_FILL_TEXTURE = EL_WITH_TEXTURE ? 4 : 0,
+    EL_FILL_COUNT = EL_WITH_OVERDRAW ? 8 : 0,
+    EL_FILL_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
+};
+
+/* What el_triangle_draw does, of a triangle that has rows in the target: with a texture (fill_texture.c), or without. */
+void el_fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+
+/* Where row y of the target begins in its arrays. */
+static inline int32_t el_row_offset(const el_target *target, int32_t y)
+{
+    return (y - target->y) * target->width;
+}
+
+/* Of the rows that el_spans_next counted as spans, one has no pixel. */
+static inline void el_count_empty(el_stats *stats)
+{
+    el_count(&stats->spans, 0U - 1U);
+}
+
+/* Whether more rows follow in the target after a number of spans. */
+static inline bool el_goes_on(const el_triangle *triangle, const el_target *target, int32_t rows)
+{
+    return rows == EL_SPAN_ROWS && triangle->y < triangle->y_end && triangle->y < target->y_end;
+}
+
+/* Rounding to nearest at the end is made once, at the start. Depth gets the bound of its plane's error more than its half
+ * (plane.h): values exactly between two units, which truncated gradients leave a little too low, are rounded up like all
+ * others. */
+#define EL_HALF_Q32 ((1ULL << 31) + (1U << 13)) /* of depth, Q32 */
+
+/* What is linear on the screen, texture coordinates apart: the values at a pixel, or what a column or a row adds to them.
+ * Depth is stepped with all 32 bits of fraction: on a 32-bit core that costs one addition more than 16.16 and saves the
+ * shift, and it makes the plane exact at every pixel of the widest screen. */
+typedef struct el_values {
+    uint64_t z;                /* Q32, its half added */
+    uint32_t red, green, blue; /* 8.24 modulo 2^32, their half added */
+} el_values;
+
+/* In the first column of the triangle's next row, and what moves them. */
+typedef struct el_slopes {
+    el_values first, per_column, per_row;
+} el_slopes;
+
+static EL_SPECIALISED el_slopes el_slopes_of(const el_triangle *triangle, unsigned kind)
+{
+    el_slopes s;
+    if ((kind & EL_FILL_DEPTH) != 0) {
+        s.first.z = triangle->z.value + EL_HALF_Q32;
+        s.per_column.z = triangle->z.dx;
+        s.per_row.z = triangle->z.dy;
+    }
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        const el_channel *const rgb = triangle->rgb;
+        s.first.red = rgb[0].value;
+        s.first.green = rgb[1].value;
+        s.first.blue = rgb[2].value;
+        s.per_column.red = rgb[0].dx;
+        s.per_column.green = rgb[1].dx;
+        s.per_column.blue = rgb[2].dx;
+        s.per_row.red = rgb[0].dy;
+        s.per_row.green = rgb[1].dy;
+        s.per_row.blue = rgb[2].dy;
+    }
+    return s;
+}
+
+/* Back to the triangle, whose next row they are the values of now, if it has one. */
+static EL_SPECIALISED void el_slopes_keep(const el_slopes *s, el_triangle *triangle, unsigned kind)
+{
+    if (el_triangle_is_done(triangle)) {
+        return;
+    }
+    if ((kind & EL_FILL_DEPTH) != 0) {
+        triangle->z.value = s->first.z - EL_HALF_Q32;
+    }
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        triangle->rgb[0].value = s->first.red;
+        triangle->rgb[1].value = s->first.green;
+        triangle->rgb[2].value = s->first.blue;
+    }
+}
+
+static inline void el_perspective_next_row(el_perspective *perspective)
+{
+    perspective->w.value += perspective->w.dy;
+    perspective->u.value += perspective->u.dy;
+    perspective->v.value += perspective->v.dy;
+}
+
+/* One step. */
+static EL_SPECIALISED void el_values_add(el_values *values, const el_values *step, unsigned kind)
+{
+    if ((kind & EL_FILL_DEPTH) != 0) {
+        values->z += step->z;
+    }
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        values->red += step->red;
+        values->green += step->green;
+        values->blue += step->blue;
+    }
+}
+
+/* The values in column x of the row, 0 <= x < 2^16. */
+static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsigned kind)
+{
+    const uint32_t columns = (uint32_t)x;
+    el_values values;
+    if ((kind & EL_FILL_DEPTH) != 0) {
+        values.z = s->first.z + el_multiply_u16(s->per_column.z, columns);
+    }
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        values.red = s->first.red + s->per_column.red * columns;
+        values.green = s->first.green + s->per_column.green * columns;
+        values.blue = s->first.blue + s->per_column.blue * columns;
+    }
+    return values;
+}
+
+/* Whether the pixel at depth[i] is drawn; its depth is stored then. Without EL_FILL_DEPTH there may be no such array. */
+static EL_SPECIALISED bool el_passes(const el_values *values, uint16_t *depth, int32_t i, unsigned kind)
+{
+    if ((kind & EL_FILL_DEPTH) == 0) {
+        return true;
+    }
+    const uint32_t z = (uint32_t)(values->z >> 32); /* 0..65535: the plane stays within its corners' range */
+    if (z >= depth[i]) {
+        return false;
+    }
+    depth[i] = (uint16_t)z;
+    return true;
+}
+
+/* A colour, 0..255 in 8.24 with its half added, as 0..1 in Q16, modulo 2^32: what rounding leaves below 0 is made up for
+ * by the smallest threshold. */
+static EL_SPECIALISED uint32_t el_fraction_q16(uint32_t plus_half_q24)
+{
+    return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
+}
+
+#endif
