@@ -1,8 +1,7 @@
-"""raster/spans, fill, fill_texture and gather: what is stepped along a span and down the rows, light, and the packing of
-a pixel.
+"""raster/spans, fill, fill_texture and gather: steps along a span and down the rows, light, the packing of a pixel.
 
-A plane is followed down the column x_at: its value in row j is V = V0 + dy j, and at a span's first pixel x, V and
-dx (x - x_at), modulo 2^64. Channels do the same modulo 2^32.
+A plane is followed down the screen's first column: its value in row j is V = V0 + dy j, and at a span's first pixel x,
+V and dx x, modulo 2^64. Channels do the same modulo 2^32.
 
 Depth is its plane's value, in Q32 modulo 2^64, and 1/2 and a little more than the plane's own error of less than 8161
 units of 2^-32 (see test_planes_are_exact_modulo_2_64). So it is never below the true value and 1/2, and above by less
@@ -61,6 +60,8 @@ def any_triangle(machine: Machine) -> Any:
         for part in ("value", "dx", "dy"):
             unknown = machine.path.atom(f"{name}.{part}", 0, modulus(name) - 1)
             machine.put(member(triangle, name).content[part], unknown)
+    machine.put(triangle.content["y"], 0)
+    machine.put(triangle.content["y_end"], machine.path.choose(machine.path.atom("y_end", 0, 1)))
     return triangle
 
 
@@ -78,20 +79,23 @@ def row_domain(machine: Machine) -> list[Any]:
     of = kind(machine, "DEPTH", "COLOURS")
     slopes = machine.call("el_slopes_of", Pointer([triangle]), of)
     ROWS[id(machine.path)] = triangle, slopes
-    return [Pointer([slopes]), machine.number("uint32_t", "columns", 0, 4080), of]
+    return [Pointer([slopes]), machine.number("int32_t", "x", 0, 4080), of]
 
 
 def row_check(machine: Machine, arguments: list[Any], result: Any) -> None:
-    """A span starts with the value there, of depth and 1/2 and more than its error; steps add dx and dy."""
+    """A span starts with the value there, of depth and 1/2 and more than its error; steps add dx and dy.
+
+    What a row further has is kept if there is one.
+    """
     triangle, slopes = ROWS.pop(id(machine.path))
-    columns, of = arguments[1].poly, arguments[2]
+    x, of = arguments[1].poly, arguments[2]
     numbers = {
         name: tuple(machine.poly(member(triangle, name), part) for part in ("value", "dx", "dy")) for name in NAMES
     }
     before = {name: machine.poly(result, stepped) for name, stepped in NAMES.items()}
     for name in NAMES:
         value, dx, _ = numbers[name]
-        added = before[name] - value - dx * columns
+        added = before[name] - value - dx * x
         half = added.terms.get((), 0) % modulus(name)
         congruent(added, Poly.of(half), modulus(name), "the value at that pixel, and")
         if name == "z":
@@ -108,7 +112,8 @@ def row_check(machine: Machine, arguments: list[Any], result: Any) -> None:
     machine.call("el_slopes_keep", Pointer([slopes]), Pointer([triangle]), of)
     for name in NAMES:
         value, _, dy = numbers[name]
-        congruent(machine.poly(member(triangle, name), "value"), value + dy, modulus(name), "a row further")
+        kept = value + dy if machine.poly(triangle, "y_end").known else value
+        congruent(machine.poly(member(triangle, name), "value"), kept, modulus(name), "a row further")
 
 
 ROW_MODULAR = ["el_slopes_of", "el_slopes_keep", "el_values_at", "el_values_add", "el_multiply_u16"]
@@ -147,33 +152,30 @@ def bend_domain(machine: Machine) -> list[Any]:
     """Edges anywhere, with any step."""
     path = machine.path
     triangle = machine.struct("el_triangle")
-    for name in ("left", "right", "lower"):
+    edges = {"left": machine.struct("el_edge"), "right": machine.struct("el_edge"), "lower": triangle.content["lower"]}
+    for name, edge in edges.items():
         for part in ("x_q32", "step_q32"):
-            machine.put(triangle.content[name].content[part], path.atom(f"{name}.{part}", -(2**63), 2**63 - 1))
+            machine.put(edge.content[part], path.atom(f"{name}.{part}", -(2**63), 2**63 - 1))
     machine.put(triangle.content["short_is_left"], path.choose(path.atom("short_is_left", 0, 1)))
-    EDGES[id(path)] = edges_of(machine, triangle)
-    return [Pointer([triangle])]
+    EDGES[id(path)] = {name: numbers_of(machine, edge) for name, edge in edges.items()}
+    return [Pointer([triangle]), Pointer([edges["left"]]), Pointer([edges["right"]])]
 
 
 EDGES: dict[int, dict[str, tuple[Poly, Poly]]] = {}
 
 
-def edges_of(machine: Machine, triangle: Any) -> dict[str, tuple[Poly, Poly]]:
-    return {
-        name: (machine.poly(triangle, name, "x_q32"), machine.poly(triangle, name, "step_q32"))
-        for name in ("left", "right", "lower")
-    }
+def numbers_of(machine: Machine, edge: Any) -> tuple[Poly, Poly]:
+    return machine.poly(edge, "x_q32"), machine.poly(edge, "step_q32")
 
 
 def bend_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     """One side goes on as the lower edge, the other as it was; it does not happen again."""
-    triangle = arguments[0].cell
+    triangle, left, right = (argument.cell for argument in arguments)
     before = EDGES.pop(id(machine.path))
-    after = edges_of(machine, triangle)
     bends = machine.poly(triangle, "short_is_left").known
-    for name, of in (("left", "lower" if bends else "left"), ("right", "right" if bends else "lower")):
-        for got, expected in zip(after[name], before[of], strict=True):
-            require((got - expected).constant == 0, f"{name} is {of}")
+    for side, of in ((left, "lower" if bends else "left"), (right, "right" if bends else "lower")):
+        for got, expected in zip(numbers_of(machine, side), before[of], strict=True):
+            require((got - expected).constant == 0, f"it is {of}")
     require(machine.poly(triangle, "y_middle").known == 2**15 - 1, "no middle is left")
 
 
@@ -423,7 +425,7 @@ def test_the_compiler_agrees(name: str) -> None:
             "perspective->v.value += perspective->v.dy",
             "perspective->v.value += perspective->u.dy",
         ),
-        ("bend", SPANS, "triangle->left = triangle->lower", "triangle->right = triangle->lower"),
+        ("bend", SPANS, "*left = triangle->lower", "*right = triangle->lower"),
         ("bend", SPANS, "triangle->y_middle = INT16_MAX", "triangle->y_middle = 0"),
         ("modulate", TEXTURE, "(light >> 24) + 1U", "(light >> 24) + 10U"),
         ("coloured", FILL, "v->green >> 26 << 5", "v->green >> 25 << 5"),

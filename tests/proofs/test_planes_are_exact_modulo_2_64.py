@@ -6,9 +6,9 @@ modulo 2^64,
 
     Z = f v0 + Qo + Qx (i - column) + Qy (j - row)
 
-where Qo, Qx, Qy are quotients by A, truncated: its value at the first pixel, dx to the side, and dy down. From X = S (i - column) + to_centre_x, Z A differs from the plane by
-eo + ex (i - column) + ey (j - row), where an e is what a truncation cut off, below A: Z is off by less than
-1 + 4080 + 4080 units of 2^-32 on any pixel of the largest screen.
+where Qo, Qx, Qy are quotients by A, truncated: its value at the first pixel, dx to the side, and dy down. From
+X = S (i - column) + to_centre_x, Z A differs from the plane by eo + ex (i - column) + ey (j - row), where an e is what
+a truncation cut off, below A: Z is off by less than 1 + 4080 + 4080 units of 2^-32 on any pixel of the largest screen.
 
 At a covered pixel the plane's value is a mean of the corners' with weights that are not negative, the edge functions
 over A, so it lies between the corners' values, which fit 32 bits: that is why the modulus loses nothing.

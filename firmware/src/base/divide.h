@@ -215,7 +215,10 @@ static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *di
         return el_divide_i32_q32(n, divisor->d);
     }
     uint32_t rest = magnitude << divisor->shift; /* below |d| << 16 << shift */
-    const uint32_t whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, divisor, &rest);
+    uint32_t whole = 0;
+    if (rest >= divisor->normalised) {
+        whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, divisor, &rest);
+    }
     const uint32_t high = el_divide_digit(rest, 0, divisor, &rest);
     const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, divisor, &rest);
     return (n ^ divisor->d) < 0 ? 0 - quotient : quotient;

@@ -15,20 +15,27 @@ enum {
     EL_FILL_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
 };
 
-/* Rows to fill. */
-typedef struct el_fill_rows {
-    const el_span *spans;
-    int32_t count;
-    int32_t y;        /* the first one, on the screen */
-    uint16_t *colour; /* its first pixel */
-    uint16_t *depth;  /* its first value; without EL_FILL_DEPTH there may be none */
-    int32_t width;    /* from row to row */
-} el_fill_rows;
+/* What el_triangle_draw does, of a triangle that has rows in the target: with a texture (fill_texture.c), or without. */
+void el_fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
 
-/* Fills rows with pixels, and moves what is linear on the screen on to the row after them. Returns how many of the rows
- * have no pixel. */
-uint32_t el_fill(el_triangle *triangle, const el_fill_rows *rows, unsigned kind);
-uint32_t el_fill_textured(el_triangle *triangle, const el_fill_rows *rows, unsigned kind);
+/* Where row y of the target begins in its arrays. */
+static inline int32_t el_row_offset(const el_target *target, int32_t y)
+{
+    return (y - target->y) * target->width;
+}
+
+/* Of the rows that el_spans_next counted as spans, one has no pixel. */
+static inline void el_count_empty(el_stats *stats)
+{
+    el_count(&stats->spans, 0U - 1U);
+}
+
+/* Whether more rows follow in the target after a number of spans. */
+static inline bool el_goes_on(const el_triangle *triangle, const el_target *target, int32_t rows)
+{
+    return rows == EL_SPAN_ROWS && triangle->y < triangle->y_end && triangle->y < target->y_end;
+}
 
 /* Rounding to nearest at the end is made once, at the start. Depth gets the bound of its plane's error more than its half
  * (plane.h): values exactly between two units, which truncated gradients leave a little too low, are rounded up like all
@@ -43,7 +50,7 @@ typedef struct el_values {
     uint32_t red, green, blue; /* 8.24 modulo 2^32, their half added */
 } el_values;
 
-/* At column x_at of the triangle's next row, and what moves them. */
+/* In the first column of the triangle's next row, and what moves them. */
 typedef struct el_slopes {
     el_values first, per_column, per_row;
 } el_slopes;
@@ -71,9 +78,12 @@ static EL_SPECIALISED el_slopes el_slopes_of(const el_triangle *triangle, unsign
     return s;
 }
 
-/* Back to the triangle, whose next row they are the values of now. */
+/* Back to the triangle, whose next row they are the values of now, if it has one. */
 static EL_SPECIALISED void el_slopes_keep(const el_slopes *s, el_triangle *triangle, unsigned kind)
 {
+    if (el_triangle_is_done(triangle)) {
+        return;
+    }
     if ((kind & EL_FILL_DEPTH) != 0) {
         triangle->z.value = s->first.z - EL_HALF_Q32;
     }
@@ -104,9 +114,10 @@ static EL_SPECIALISED void el_values_add(el_values *values, const el_values *ste
     }
 }
 
-/* The values `columns` to the right of the row's first ones, less than 2^16. */
-static EL_SPECIALISED el_values el_values_at(const el_slopes *s, uint32_t columns, unsigned kind)
+/* The values in column x of the row, 0 <= x < 2^16. */
+static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsigned kind)
 {
+    const uint32_t columns = (uint32_t)x;
     el_values values;
     if ((kind & EL_FILL_DEPTH) != 0) {
         values.z = s->first.z + el_multiply_u16(s->per_column.z, columns);

@@ -42,59 +42,62 @@ static EL_SPECIALISED uint16_t modulate(uint32_t texel, const el_values *v, uint
                       lit(texel & 31U, v->blue, threshold_q16, kind));
 }
 
-static EL_SPECIALISED uint32_t fill(el_triangle *triangle, const el_fill_rows *rows, unsigned kind)
+static EL_SPECIALISED void fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
-    el_slopes s = el_slopes_of(triangle, kind);
     const texel_source source = source_of(triangle->surface.texture);
-    const int32_t x_at = triangle->x_at;
-    const int32_t width = rows->width;
-    uint16_t *colour = rows->colour;
-    uint16_t *depth = rows->depth;
-    uint32_t y = (uint32_t)rows->y;
-    uint32_t empty = 0;
-    for (const el_span *span = rows->spans, *const end = span + rows->count; span < end; span++) {
-        const int32_t x_end = span->x_end;
-        int32_t x = span->x;
-        if (x < x_end) {
-            el_values v = el_values_at(&s, (uint32_t)(x - x_at), kind);
-            /* In pieces along which texture coordinates are linear. */
-            el_texture_walk walk;
-            el_texture_walk_begin(&walk, triangle, x - x_at);
-            do {
-                const int32_t piece_end = x + el_texture_walk_piece(&walk, x_end - x);
-                uint32_t u_q16 = (uint32_t)walk.u_q16;
-                uint32_t v_q16 = (uint32_t)walk.v_q16;
-                const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
-                const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
-                for (; x < piece_end; x++) {
-                    if (el_passes(&v, depth, x, kind)) {
-                        const uint32_t texel = texel_at(&source, u_q16, v_q16);
-                        colour[x] = (kind & EL_FILL_COLOURS) != 0
-                                        ? modulate(texel, &v, el_dither_threshold_q16((uint32_t)x, y), kind)
-                                        : (uint16_t)texel;
+    const int32_t width = target->width;
+    uint32_t y = (uint32_t)triangle->y;
+    const int32_t offset = el_row_offset(target, triangle->y);
+    uint16_t *colour = target->colour + offset;
+    uint16_t *depth = target->depth + ((kind & EL_FILL_DEPTH) != 0 ? offset : 0);
+    int32_t rows;
+    do {
+        el_span spans[EL_SPAN_ROWS];
+        rows = el_spans_next(triangle, target, stats, spans);
+        el_slopes s = el_slopes_of(triangle, kind);
+        for (const el_span *span = spans; span < spans + rows; span++) {
+            const int32_t x_end = span->x_end;
+            int32_t x = span->x;
+            if (x < x_end) {
+                el_values v = el_values_at(&s, x, kind);
+                /* In pieces along which texture coordinates are linear. */
+                el_texture_walk walk;
+                el_texture_walk_begin(&walk, triangle, x);
+                do {
+                    const int32_t piece_end = x + el_texture_walk_piece(&walk, x_end - x);
+                    uint32_t u_q16 = (uint32_t)walk.u_q16;
+                    uint32_t v_q16 = (uint32_t)walk.v_q16;
+                    const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
+                    const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
+                    for (; x < piece_end; x++) {
+                        if (el_passes(&v, depth, x, kind)) {
+                            const uint32_t texel = texel_at(&source, u_q16, v_q16);
+                            colour[x] = (kind & EL_FILL_COLOURS) != 0
+                                            ? modulate(texel, &v, el_dither_threshold_q16((uint32_t)x, y), kind)
+                                            : (uint16_t)texel;
+                        }
+                        el_values_add(&v, &s.per_column, kind);
+                        u_q16 += u_step_q16;
+                        v_q16 += v_step_q16;
                     }
-                    el_values_add(&v, &s.per_column, kind);
-                    u_q16 += u_step_q16;
-                    v_q16 += v_step_q16;
-                }
-            } while (x < x_end);
-        } else {
-            empty++;
+                } while (x < x_end);
+            } else {
+                el_count_empty(stats);
+            }
+            el_values_add(&s.first, &s.per_row, kind);
+            el_perspective_next_row(&triangle->perspective);
+            colour += width;
+            depth += (kind & EL_FILL_DEPTH) != 0 ? width : 0;
+            y++;
         }
-        el_values_add(&s.first, &s.per_row, kind);
-        el_perspective_next_row(&triangle->perspective);
-        colour += width;
-        depth += (kind & EL_FILL_DEPTH) != 0 ? width : 0;
-        y++;
-    }
-    el_slopes_keep(&s, triangle, kind);
-    return empty;
+        el_slopes_keep(&s, triangle, kind);
+    } while (el_goes_on(triangle, target, rows));
 }
 
 #if EL_SMALL_CODE
-uint32_t el_fill_textured(el_triangle *triangle, const el_fill_rows *rows, unsigned kind)
+void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
-    return fill(triangle, rows, kind);
+    fill(triangle, target, stats, kind);
 }
 #else
 /* A function of its own for each kind, as in fill.c. */
@@ -107,20 +110,20 @@ uint32_t el_fill_textured(el_triangle *triangle, const el_fill_rows *rows, unsig
     DO(lit_dithered_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
 
 #define DEFINE(name, kind)                                                                                             \
-    static __attribute__((noinline)) uint32_t fill_##name(el_triangle *triangle, const el_fill_rows *rows)             \
+    static __attribute__((noinline)) void fill_##name(el_triangle *triangle, const el_target *target, el_stats *stats) \
     {                                                                                                                  \
-        return fill(triangle, rows, (kind));                                                                           \
+        fill(triangle, target, stats, (kind));                                                                         \
     }
 FILLS(DEFINE)
 
 #define CALL(name, kind)                                                                                               \
     if (asked == (kind)) {                                                                                             \
-        return fill_##name(triangle, rows);                                                                            \
+        fill_##name(triangle, target, stats);                                                                          \
+        return;                                                                                                        \
     }
 
-uint32_t el_fill_textured(el_triangle *triangle, const el_fill_rows *rows, unsigned asked)
+void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned asked)
 {
     FILLS(CALL)
-    return 0;
 }
 #endif

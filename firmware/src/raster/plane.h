@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/* It is followed down one column of pixels: the triangle's leftmost, so that every pixel is to the right. */
+/* It is followed down the screen's first column: every pixel is in it or to the right. */
 typedef struct el_plane {
     uint64_t value; /* at the centre of that column's pixel in the triangle's next row */
     uint64_t dx;    /* per pixel to the right */

@@ -1,5 +1,4 @@
-/* A triangle's rows in a band: its edges give their spans (spans.h), the fill of its shading the pixels (fill.h), a few rows
- * at a time. */
+/* A triangle's rows, drawn by the fill of its shading (fill.h), walked without drawing, or sampled. */
 #include "base/fixed.h"
 #include "raster/fill.h"
 #include "raster/texture_walk.h"
@@ -16,38 +15,24 @@ static unsigned kind_of(const el_surface *surface)
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
-    const unsigned kind = kind_of(&triangle->surface);
-    const int32_t y_end = el_min_i32(triangle->y_end, target->y_end);
-    uint32_t pixels = 0;
-    uint32_t empty = 0;
-    int32_t y = triangle->y;
-    el_count(&stats->rows, (uint32_t)(y_end - y));
-    el_count(&stats->spans, (uint32_t)(y_end - y));
-    while (y < y_end) {
-        const int32_t offset = (y - target->y) * target->width;
-        el_span spans[EL_SPAN_ROWS];
-        const el_fill_rows rows = {
-            .spans = spans,
-            .count = el_min_i32(y_end - y, EL_SPAN_ROWS),
-            .y = y,
-            .colour = target->colour + offset,
-            .depth = (kind & EL_FILL_DEPTH) != 0 ? target->depth + offset : NULL,
-            .width = target->width,
-        };
-        pixels += el_spans_next(triangle, rows.count, rows.width, spans);
-        empty += EL_WITH_TEXTURE && (kind & EL_FILL_TEXTURE) != 0 ? el_fill_textured(triangle, &rows, kind)
-                                                                  : el_fill(triangle, &rows, kind);
-        y += rows.count;
+    if (triangle->y >= el_min_i32(triangle->y_end, target->y_end)) {
+        return;
     }
-    el_count(&stats->spans, 0U - empty);
-    el_count(&stats->pixels, pixels);
+    const unsigned kind = kind_of(&triangle->surface);
+    if (EL_WITH_TEXTURE && (kind & EL_FILL_TEXTURE) != 0) {
+        el_fill_textured(triangle, target, stats, kind);
+    } else {
+        el_fill(triangle, target, stats, kind);
+    }
 }
 
 void el_triangle_next_row(el_triangle *triangle)
 {
     const unsigned kind = kind_of(&triangle->surface);
-    el_span span;
-    (void)el_spans_next(triangle, 1, 0, &span);
+    const el_target row = {.y = triangle->y, .y_end = triangle->y + 1};
+    el_stats stats = {0};
+    el_span spans[EL_SPAN_ROWS];
+    (void)el_spans_next(triangle, &row, &stats, spans);
     el_slopes slopes = el_slopes_of(triangle, kind);
     el_values_add(&slopes.first, &slopes.per_row, kind);
     el_slopes_keep(&slopes, triangle, kind);
@@ -62,7 +47,7 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
     const int32_t begin = el_max_i32(el_edge_x(&triangle->left), 0);
     const int32_t end = el_min_i32(el_edge_x(&triangle->right), width);
     const el_slopes slopes = el_slopes_of(triangle, kind);
-    el_values values = el_values_at(&slopes, (uint32_t)(begin - triangle->x_at), kind);
+    el_values values = el_values_at(&slopes, begin, kind);
     for (int32_t at = begin; at < x; at++) {
         el_values_add(&values, &slopes.per_column, kind);
     }
@@ -76,7 +61,7 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
         return;
     }
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, begin - triangle->x_at);
+    el_texture_walk_begin(&walk, triangle, begin);
     int32_t at = begin;
     int32_t length = el_texture_walk_piece(&walk, end - at);
     while (x >= at + length) {

@@ -9,23 +9,41 @@
 #include "raster/edge.h"
 #include "raster/plane.h"
 
+#if EL_WITH_SMALL_PLANES
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Of a triangle whose sides are short edges: 511 sub-pixels high, 1023 wide at most. */
+/* From a triangle's top corner to its middle one, and to the bottom one, in 1/EL_SUBPIXELS px. */
+typedef struct el_small_shape {
+    int32_t dx1, dy1;
+    int32_t dx2, dy2;
+} el_small_shape;
+
+/* The doubled area; positive when the corners run clockwise as seen on the screen. */
+static inline int32_t el_small_area(const el_small_shape *shape)
+{
+    return shape->dx1 * shape->dy2 - shape->dx2 * shape->dy1; /* |area| <= 2 * 1023 * 1023 */
+}
+
+/* Whether its edges are short. The doubled area is a small divisor then, being the box at most. */
+static inline bool el_shape_is_small(const el_small_shape *shape)
+{
+    const uint32_t most = EL_EDGE_NARROW;
+    return shape->dy2 <= EL_EDGE_SHORT && (uint32_t)shape->dx1 + most <= 2U * most &&
+           (uint32_t)shape->dx2 + most <= 2U * most && (uint32_t)shape->dx2 - (uint32_t)shape->dx1 + most <= 2U * most;
+}
+
+_Static_assert((int)EL_EDGE_NARROW * (int)EL_EDGE_SHORT < 1 << EL_SMALL_DIVISOR_BITS, "a box of short edges");
+_Static_assert((int)EL_EDGE_NARROW <= (int)EL_SMALL_SUB, "plane.c makes the same by parts");
+
 typedef struct el_small_frame {
-    int32_t dx1, dy1; /* from the first to the second corner, 1/EL_SUBPIXELS px */
-    int32_t dx2, dy2; /* from the first to the third */
-    int32_t x0, y0;   /* the first corner */
-    int32_t x, row;   /* the pixel that the planes start at, less than 2^11 sub-pixels away on each axis */
+    el_small_shape shape;
+    int32_t x0, y0; /* the top corner */
+    int32_t row;    /* that the planes start at, less than 2^16 sub-pixels below it, in column 0 */
     el_small_divisor area;
 } el_small_frame;
-
-_Static_assert(EL_SUBPIXEL_BITS != 4 || EL_EDGE_NARROW * EL_EDGE_SHORT < 1 << EL_SMALL_DIVISOR_BITS,
-               "the doubled area is at most the box, and a small divisor");
-_Static_assert(EL_SUBPIXEL_BITS != 4 || (int)EL_EDGE_NARROW <= (int)EL_SMALL_SUB,
-               "what is drawn by small planes is what plane.c makes by parts");
 
 /* Per sub-pixel, Q32. */
 typedef struct el_small_gradient {
@@ -36,8 +54,8 @@ typedef struct el_small_gradient {
 static inline el_small_gradient el_small_gradient_make(const el_small_frame *frame, int32_t d1, int32_t d2)
 {
     /* |a|, |b| <= 2 * 65535 * 1023 < 2^27. */
-    const int32_t a = d1 * frame->dy2 - d2 * frame->dy1;
-    const int32_t b = d2 * frame->dx1 - d1 * frame->dx2;
+    const int32_t a = d1 * frame->shape.dy2 - d2 * frame->shape.dy1;
+    const int32_t b = d2 * frame->shape.dx1 - d1 * frame->shape.dx2;
     return (el_small_gradient){
         .per_x = el_divide_small_q32(a, &frame->area),
         .per_y = el_divide_small_q32(b, &frame->area),
@@ -50,9 +68,10 @@ static inline void el_small_plane_make(el_plane *plane, const el_small_frame *fr
     const el_small_gradient g = el_small_gradient_make(frame, z1 - z0, z2 - z0);
     plane->dx = g.per_x << EL_SUBPIXEL_BITS;
     plane->dy = g.per_y << EL_SUBPIXEL_BITS;
-    plane->value = ((uint64_t)z0 << 32) +
-                   el_multiply_u64(g.per_x, frame->x * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0) +
-                   el_multiply_u64(g.per_y, frame->row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0);
+    /* Column 0 is to the left of what is on the screen. */
+    const uint32_t below = (uint32_t)(frame->row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0); /* at most 511 */
+    plane->value = ((uint64_t)z0 << 32) + el_multiply_u16(g.per_y, below) -
+                   el_multiply_u64(g.per_x, frame->x0 - EL_SUBPIXELS / 2);
 }
 
 /* A colour channel, 0 to 255 in 8.8. Rounded are the offset to the centre of the first corner's pixel and what a pixel is,
@@ -70,11 +89,12 @@ static inline void el_small_channel_make(el_channel *channel, const el_small_fra
     channel->dx = dx;
     channel->dy = dy;
     channel->value = ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + el_q32_to_q24(offset) +
-                     dx * (uint32_t)(frame->x - column) + dy * (uint32_t)(frame->row - row);
+                     dx * (uint32_t)-column + dy * (uint32_t)(frame->row - row);
 }
 
 #ifdef __cplusplus
 }
 #endif
 
+#endif
 #endif

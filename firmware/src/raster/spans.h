@@ -17,10 +17,11 @@ typedef struct el_span {
 /* Rows that are walked at a time: as many as a band has, mostly, and little enough for a stack. */
 enum { EL_SPAN_ROWS = 16 };
 
-/* The spans of the triangle's next `rows` rows, within columns [0, width). Moves its edges and triangle->y to the row after
- * them, but not what is linear on the screen. Returns how many pixels the spans have.
- * Pre: 1 <= rows <= EL_SPAN_ROWS, triangle->y + rows <= triangle->y_end. */
-uint32_t el_spans_next(el_triangle *triangle, int32_t rows, int32_t width, el_span *spans);
+/* The spans of the triangle's next rows in the target, EL_SPAN_ROWS at most, within the target's width. Returns how many
+ * they are. Moves triangle->y to the row after them, and the edges if the triangle goes on there; what is linear on the
+ * screen stays. Counts rows and pixels, and each row as a span: who finds one without pixels corrects that.
+ * Pre: the triangle has rows in the target. */
+int32_t el_spans_next(el_triangle *triangle, const el_target *target, el_stats *stats, el_span spans[EL_SPAN_ROWS]);
 
 #ifdef __cplusplus
 }

@@ -100,16 +100,14 @@ static bool is_steep(const el_plane *plane)
     return el_abs_u64((int64_t)plane->dx) >= 1ULL << (32 + STEEP_LOG2);
 }
 
-void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t columns)
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x)
 {
     const el_perspective *const p = &triangle->perspective;
     walk->planes = p;
     walk->w = p->w.value + EL_W_MARGIN_Q32;
     walk->u = p->u.value;
     walk->v = p->v.value;
-    if (columns != 0) {
-        go_on(walk, (uint32_t)columns);
-    }
+    go_on(walk, (uint32_t)x);
     walk->length = LENGTHS - 1;
     find_knot(walk);
     walk->u_step_q16 = 0;

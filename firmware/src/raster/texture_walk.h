@@ -38,8 +38,8 @@ typedef struct el_texture_walk {
     uint8_t length;                 /* index of the length that the last piece had */
 } el_texture_walk;
 
-/* Begins `columns` pixels to the right of column x_at in the triangle's next row; 0 <= columns < 2^16. */
-void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t columns);
+/* Begins at column x of the triangle's next row; 0 <= x < 2^16. */
+void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x);
 
 /* Makes the next piece of a span that has `left` pixels to go, left >= 1, and returns its length in pixels, 1 to
  * EL_MAX_PIECE: u_q16 and v_q16 belong to its first pixel, the steps lead to the others. */

@@ -97,7 +97,7 @@ static __attribute__((noinline)) void make_planes(el_triangle *triangle, const o
     const int32_t y[3] = {corners[0]->y, corners[1]->y, corners[2]->y};
     el_plane_frame frame;
     el_plane_frame_make(&frame, x, y);
-    frame.x = triangle->x_at;
+    frame.x = 0;
     frame.row = triangle->y;
     if (triangle->surface.depth && !texture_alone) {
         const uint16_t z[3] = {corners[0]->z, corners[1]->z, corners[2]->z};
@@ -114,85 +114,96 @@ static __attribute__((noinline)) void make_planes(el_triangle *triangle, const o
     }
 }
 
-/* `small`: the edges are short. */
-static EL_SPECIALISED void make_edge(el_edge *edge, const el_corner *from, const el_corner *to, int32_t row, bool small)
+static EL_SPECIALISED void make_edge(el_edge *edge, const el_corner *from, const el_corner *to, int32_t row,
+                                     bool edges_are_short)
 {
 #if EL_WITH_SMALL_PLANES
-    if (small) {
+    if (edges_are_short) {
         el_edge_make_short(edge, from->x, from->y, to->x, to->y, row);
         return;
     }
 #endif
-    (void)small;
+    (void)edges_are_short;
     el_edge_make(edge, from->x, from->y, to->x, to->y, row);
 }
 
 /* All but the planes, from row y_begin on. */
 static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const el_surface *surface, int32_t y_begin,
-                                 bool short_is_left, bool small)
+                                 bool short_is_left, bool edges_are_short)
 {
     const int32_t y_middle = el_first_centre(o->middle->y);
     const int32_t y_end = el_first_centre(o->bottom->y);
     triangle->surface = *surface;
     triangle->y = (int16_t)y_begin;
     triangle->y_end = (int16_t)y_end;
-    triangle->x_at = (int16_t)el_first_centre(el_min_i32(o->top->x, el_min_i32(o->middle->x, o->bottom->x)));
-    triangle->x_end = (int16_t)el_first_centre(el_max_i32(o->top->x, el_max_i32(o->middle->x, o->bottom->x)));
     triangle->short_is_left = short_is_left;
-    el_edge *bent = short_is_left ? &triangle->left : &triangle->right;
-    make_edge(short_is_left ? &triangle->right : &triangle->left, o->top, o->bottom, y_begin, small);
+    /* The middle corner can only be beyond the others on its own side. */
+    int32_t least = el_min_i32(o->top->x, o->bottom->x);
+    int32_t most = el_max_i32(o->top->x, o->bottom->x);
+    el_edge *bent = &triangle->right;
+    el_edge *straight = &triangle->left;
+    if (short_is_left) {
+        bent = &triangle->left;
+        straight = &triangle->right;
+        least = el_min_i32(least, o->middle->x);
+    } else {
+        most = el_max_i32(most, o->middle->x);
+    }
+    triangle->x_begin = (int16_t)el_first_centre(least);
+    triangle->x_end = (int16_t)el_first_centre(most);
+    make_edge(straight, o->top, o->bottom, y_begin, edges_are_short);
     int32_t y_bend = INT16_MAX;
     int32_t y_lower = y_begin;
     if (y_begin < y_middle) {
-        make_edge(bent, o->top, o->middle, y_begin, small);
+        make_edge(bent, o->top, o->middle, y_begin, edges_are_short);
         bent = &triangle->lower;
         y_lower = y_middle;
         y_bend = y_middle < y_end ? y_middle : y_bend;
     }
     triangle->y_middle = (int16_t)y_bend;
     if (y_middle < y_end) {
-        make_edge(bent, o->middle, o->bottom, y_lower, small);
+        make_edge(bent, o->middle, o->bottom, y_lower, edges_are_short);
     }
 }
 
-#if EL_WITH_SMALL_PLANES
-/* A small triangle, none of whose sides is longer than a short edge: products of 32 bits, and few of them. */
-static inline bool set_up_small(el_triangle *triangle, const outline *o, const el_surface *surface, int32_t y_begin)
+/* The way of larger triangles, apart, so that it takes no registers from that of most. */
+static __attribute__((noinline)) bool set_up_large(el_triangle *triangle, const outline *o, const el_surface *surface,
+                                                   int32_t y_begin)
 {
-    const int32_t dx1 = o->middle->x - o->top->x;
-    const int32_t dy1 = o->middle->y - o->top->y;
-    const int32_t dx2 = o->bottom->x - o->top->x;
-    const int32_t dy2 = o->bottom->y - o->top->y;
-    const int32_t area = dx1 * dy2 - dx2 * dy1;
+    const int32_t x[3] = {o->top->x, o->middle->x, o->bottom->x};
+    const int32_t y[3] = {o->top->y, o->middle->y, o->bottom->y};
+    const int64_t area = el_doubled_area(x, y);
     if (area == 0) {
         return false;
     }
-    begin(triangle, o, surface, y_begin, area < 0, true);
+    begin(triangle, o, surface, y_begin, area < 0, false);
+    make_planes(triangle, o, false);
+    return true;
+}
+
+#if EL_WITH_SMALL_PLANES
+static inline void make_small_planes(el_triangle *triangle, const outline *o, const el_small_shape *shape, int32_t area)
+{
     const el_small_frame frame = {
-        .dx1 = dx1,
-        .dy1 = dy1,
-        .dx2 = dx2,
-        .dy2 = dy2,
+        .shape = *shape,
         .x0 = o->top->x,
         .y0 = o->top->y,
-        .x = triangle->x_at,
-        .row = y_begin,
+        .row = triangle->y,
         .area = el_small_divisor_make(area),
     };
-    if (surface->depth) {
+    if (triangle->surface.depth) {
         el_small_plane_make(&triangle->z, &frame, o->top->z, o->middle->z, o->bottom->z);
     }
-    if (el_has_colours(surface->shading)) {
+    if (el_has_colours(triangle->surface.shading)) {
         for (unsigned i = 0; i < 3; i++) {
             el_small_channel_make(&triangle->rgb[i], &frame, o->top->rgb_q8[i], o->middle->rgb_q8[i],
                                   o->bottom->rgb_q8[i]);
         }
     }
-    if (el_has_texture(surface->shading)) {
+    if (el_has_texture(triangle->surface.shading)) {
         const outline again = *o;
         make_planes(triangle, &again, true);
     }
-    return true;
 }
 #endif
 
@@ -204,20 +215,22 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
         return false;
     }
 #if EL_WITH_SMALL_PLANES
-    const int32_t least = el_min_i32(o.top->x, el_min_i32(o.middle->x, o.bottom->x));
-    const int32_t most = el_max_i32(o.top->x, el_max_i32(o.middle->x, o.bottom->x));
-    if (most - least <= EL_EDGE_NARROW && o.bottom->y - o.top->y <= EL_EDGE_SHORT) {
-        return set_up_small(triangle, &o, surface, y_begin);
+    const el_small_shape shape = {
+        .dx1 = o.middle->x - o.top->x,
+        .dy1 = o.middle->y - o.top->y,
+        .dx2 = o.bottom->x - o.top->x,
+        .dy2 = o.bottom->y - o.top->y,
+    };
+    if (el_shape_is_small(&shape)) {
+        const int32_t area = el_small_area(&shape);
+        if (area == 0) {
+            return false;
+        }
+        begin(triangle, &o, surface, y_begin, area < 0, true);
+        make_small_planes(triangle, &o, &shape, area);
+        return true;
     }
 #endif
-    const int32_t x[3] = {o.top->x, o.middle->x, o.bottom->x};
-    const int32_t y[3] = {o.top->y, o.middle->y, o.bottom->y};
-    const int64_t area = el_doubled_area(x, y);
-    if (area == 0) {
-        return false;
-    }
-    begin(triangle, &o, surface, y_begin, area < 0, false);
     const outline again = o;
-    make_planes(triangle, &again, false);
-    return true;
+    return set_up_large(triangle, &again, surface, y_begin);
 }

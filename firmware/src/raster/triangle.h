@@ -49,11 +49,10 @@ typedef struct el_triangle {
     int16_t y;        /* next row */
     int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none, or it has begun */
     int16_t y_end;
-    int16_t x_at;        /* the leftmost column that a pixel can be in, for which planes have the row's values */
-    int16_t x_end;       /* the column after the rightmost one */
-    bool short_is_left;  /* the side that bends at y_middle */
-    el_edge left, right; /* of the current part */
-    el_edge lower;       /* the lower part's other edge */
+    int16_t x_begin, x_end; /* no row reaches beyond these columns */
+    bool short_is_left;     /* the side that bends at y_middle */
+    el_edge left, right;    /* of the current part */
+    el_edge lower;          /* the lower part's other edge */
     /* What a shading does not use, at the end, need not be in memory. */
     el_plane z;
     el_channel rgb[3];          /* vertex colours, or light on a texture */

@@ -24,7 +24,7 @@ BENCH_INLINE void put(const span_target *row, int32_t x, uint32_t red, uint32_t 
 /* 8.24 with its half added. */
 BENCH_INLINE uint32_t channel_at(const el_triangle *triangle, unsigned i, int32_t x)
 {
-    return triangle->rgb[i].value + triangle->rgb[i].dx * (uint32_t)(x - triangle->x_at);
+    return triangle->rgb[i].value + triangle->rgb[i].dx * (uint32_t)x;
 }
 
 /* The renderer's: 8.24 each, the step rounded to nearest. */

@@ -38,7 +38,7 @@ BENCH_INLINE void linear(const el_triangle *triangle, const span_target *row, in
 BENCH_INLINE void bounded(const el_triangle *triangle, const span_target *row, int32_t x, int32_t x_end)
 {
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, x - triangle->x_at);
+    el_texture_walk_begin(&walk, triangle, x);
     while (x < x_end) {
         const int32_t length = el_texture_walk_piece(&walk, x_end - x);
         linear(triangle, row, x, x + length, walk.u_q16, walk.v_q16, walk.u_step_q16, walk.v_step_q16);
