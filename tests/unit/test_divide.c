@@ -76,15 +76,11 @@ static void expect_quotients(const seeded *s, uint32_t d, uint64_t n)
     }
 }
 
-/* n / d in Q32 for n of 32 bits, truncated; floor(2^32 n / d) by both ratios where the whole part fits. */
+/* floor(2^32 n / d) by both ratios where the whole part fits. */
 static void expect_ratios(const seeded *s, int32_t n, uint32_t d)
 {
-    const el_divisor divisor = el_divisor_make(d);
     const int64_t shifted = n * (1LL << 32);
     const int64_t floor = shifted / d - (shifted % d < 0);
-    if (el_divide_i32_q32(n, &divisor) != (uint64_t)(shifted / d)) {
-        fail_at(s, "%ld / %lu in Q32", (long)n, (unsigned long)d);
-    }
     const bool fits = floor >> 32 > -(1LL << 31) && floor >> 32 < 1LL << 31;
     if (fits && d < 1U << 16 && el_ratio_q32(n, d) != floor) {
         fail_at(s, "the ratio %ld / %lu", (long)n, (unsigned long)d);
@@ -128,7 +124,46 @@ static void test_wide_ratios(void)
 static void test_reciprocals_of_short_divisors(void)
 {
     for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
-        TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFFU / d, el_reciprocal_of_short(d));
+        TEST_ASSERT_EQUAL_HEX32(0x7FFFFFFFU / d, el_reciprocal_of_short((int32_t)d));
+    }
+}
+
+/* n / d in Q32, truncated, of all signs: by digits, and by a divisor of its own. */
+static void expect_small(const seeded *s, int32_t n, int32_t d)
+{
+    const el_small_divisor divisor = el_small_divisor_make(d);
+    const uint64_t expected = (uint64_t)(n * (1LL << 32) / d);
+    if (el_divide_small_q32(n, &divisor) != expected || el_divide_i32_q32(n, d) != expected) {
+        fail_at(s, "%ld / %ld in Q32", (long)n, (long)d);
+    }
+}
+
+static void test_small_divisors(void)
+{
+    for (seeded s = seeded_from(84); s.round < ROUNDS; s.round++) {
+        const int32_t most = (1 << EL_SMALL_DIVISOR_BITS) - 1;
+        const int32_t any = (int32_t)any_of_bits(&s, EL_SMALL_DIVISOR_BITS);
+        const int32_t d = s.round % 8 == 0 ? most - any % 4 : (any == 0 ? 1 : any);
+        const int32_t n = s.round % 8 == 1 ? INT32_MAX - any : (int32_t)any_signed_of_bits(&s, 31);
+        const int32_t multiple = n / d / 2 * d; /* remainders of 0 and next to it */
+        for (int32_t beside = -1; beside <= 1; beside++) {
+            expect_small(&s, n, d);
+            expect_small(&s, n, -d);
+            expect_small(&s, multiple + beside, d);
+            expect_small(&s, multiple + beside, -d);
+        }
+    }
+}
+
+/* With a reciprocal that is at most a unit too low, a digit is right after a few corrections. */
+static void test_reciprocals_of_small_divisors(void)
+{
+    for (int32_t d = 1; d < 1 << 16; d++) {
+        const el_small_divisor divisor = el_small_divisor_make(-d);
+        const uint32_t short_by = (1U << 31) / divisor.normalised - divisor.reciprocal;
+        if (divisor.normalised != (uint32_t)d << divisor.shift || divisor.normalised >> 15 != 1 || short_by > 1) {
+            TEST_FAIL_MESSAGE("a reciprocal of 16 bits");
+        }
     }
 }
 
@@ -176,9 +211,6 @@ static void test_divisors_beside_the_steps_of_the_first_guess(void)
 
 static void test_tables(void)
 {
-    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
-        TEST_ASSERT_EQUAL_HEX32(UINT32_MAX / d, el_reciprocal_of_short(d));
-    }
     for (uint32_t d = 512; d < 1024; d++) {
         TEST_ASSERT_EQUAL_HEX32(((1U << 24) - (1U << 14) + (1U << 9)) / d, el_first_guess(d));
     }
@@ -244,6 +276,8 @@ int main(void)
     RUN_TEST(test_quotients_seeded);
     RUN_TEST(test_wide_divisors_seeded);
     RUN_TEST(test_two_words_by_one);
+    RUN_TEST(test_small_divisors);
+    RUN_TEST(test_reciprocals_of_small_divisors);
     RUN_TEST(test_ratios);
     RUN_TEST(test_wide_ratios);
     RUN_TEST(test_reciprocals_of_short_divisors);

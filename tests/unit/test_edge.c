@@ -23,7 +23,9 @@ static int32_t reference_x(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32
     return (int32_t)(n / d + (n % d > 0));
 }
 
-static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+typedef void make_edge(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row);
+
+static void expect_made(const seeded *s, make_edge *make, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
 {
     const int32_t first = el_first_centre(y0);
     const int32_t end = el_first_centre(y1);
@@ -31,7 +33,7 @@ static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int
         return;
     }
     el_edge walked;
-    el_edge_make(&walked, x0, y0, x1, y1, first);
+    make(&walked, x0, y0, x1, y1, first);
     const int32_t stride = (end - first) / 40 + 1; /* long edges are started anew on some of their rows */
     for (int32_t row = first; row < end; row++) {
         const int32_t expected = reference_x(x0, y0, x1, y1, row);
@@ -41,7 +43,7 @@ static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int
         }
         if (row % stride == 0) {
             el_edge direct;
-            el_edge_make(&direct, x0, y0, x1, y1, row);
+            make(&direct, x0, y0, x1, y1, row);
             if (el_edge_x(&direct) != el_edge_x(&walked)) {
                 fail_at(s, "(%d, %d) to (%d, %d): row %d differs from the walk", (int)x0, (int)y0, (int)x1, (int)y1,
                         (int)row);
@@ -49,6 +51,16 @@ static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int
         }
         el_edge_next_row(&walked);
     }
+}
+
+static void expect_edge(const seeded *s, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+{
+    expect_made(s, el_edge_make, x0, y0, x1, y1);
+#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+    if (y1 - y0 <= EL_EDGE_SHORT && x1 - x0 <= EL_EDGE_NARROW && x0 - x1 <= EL_EDGE_NARROW) {
+        expect_made(s, el_edge_make_short, x0, y0, x1, y1);
+    }
+#endif
 }
 
 static void test_first_centres(void)

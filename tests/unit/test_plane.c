@@ -1,5 +1,5 @@
 /* A plane's value at every covered pixel against exact rational arithmetic, modulo 2^64 as its header says. */
-#include "raster/plane.h"
+#include "raster/small_plane.h"
 
 #include "any_triangle.h"
 #include "wide.h"
@@ -185,6 +185,67 @@ static void test_depth_and_colours_of_small_triangles(void)
     }
 }
 
+#if EL_WITH_SMALL_PLANES
+/* The short way to a small triangle's planes has the bits of the other, wherever they start. */
+static void expect_small_planes(const seeded *s, const el_corner c[3], int32_t column, int32_t row)
+{
+    const int32_t x[3] = {c[0].x, c[1].x, c[2].x};
+    const int32_t y[3] = {c[0].y, c[1].y, c[2].y};
+    const el_plane_frame frame = frame_at(x, y, column, row);
+    const el_small_frame small = {
+        .dx1 = x[1] - x[0],
+        .dy1 = y[1] - y[0],
+        .dx2 = x[2] - x[0],
+        .dy2 = y[2] - y[0],
+        .x0 = x[0],
+        .y0 = y[0],
+        .x = column,
+        .row = row,
+        .area = el_small_divisor_make((int32_t)el_doubled_area(x, y)),
+    };
+    const uint16_t z[3] = {c[0].z, c[1].z, c[2].z};
+    el_plane expected;
+    el_plane got;
+    el_plane_make_u16(&expected, &frame, z);
+    el_small_plane_make(&got, &small, z[0], z[1], z[2]);
+    if (got.value != expected.value || got.dx != expected.dx || got.dy != expected.dy) {
+        fail_at(s, "depth at (%d, %d)", (int)column, (int)row);
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        const uint16_t values[3] = {c[0].rgb_q8[i], c[1].rgb_q8[i], c[2].rgb_q8[i]};
+        el_channel plain;
+        el_channel quick;
+        el_channel_make(&plain, &frame, values);
+        el_small_channel_make(&quick, &small, values[0], values[1], values[2]);
+        if (quick.value != plain.value || quick.dx != plain.dx || quick.dy != plain.dy) {
+            fail_at(s, "channel %u at (%d, %d)", i, (int)column, (int)row);
+        }
+    }
+}
+
+static void test_small_planes(void)
+{
+    for (seeded s = seeded_from(52); s.round < PART_OF(50000); s.round++) {
+        const int32_t reach_x = s.round % 4 == 0 ? EL_EDGE_NARROW : 8 << s.round % 7;
+        const int32_t reach_y = s.round % 4 == 0 ? EL_EDGE_SHORT : 8 << s.round % 6;
+        const int32_t x = (int32_t)any_between(&s, -EL_GUARD_SUB, EL_GUARD_SUB - reach_x);
+        const int32_t y = (int32_t)any_between(&s, -EL_GUARD_SUB, EL_GUARD_SUB - reach_y);
+        el_corner c[3];
+        for (unsigned i = 0; i < 3; i++) {
+            c[i] = any_corner(&s, 0, 1);
+            c[i].x = x + (int32_t)(any_below(&s, 4) == 0 ? reach_x * (int32_t)any_below(&s, 2)
+                                                         : any_between(&s, 0, reach_x));
+            c[i].y = y + (int32_t)(any_below(&s, 4) == 0 ? reach_y * (int32_t)any_below(&s, 2)
+                                                         : any_between(&s, 0, reach_y));
+        }
+        if (reference_side(&c[0], &c[1], c[2].x, c[2].y) != 0) {
+            expect_small_planes(&s, c, (x >> EL_SUBPIXEL_BITS) + (int32_t)any_below(&s, 3),
+                                (y >> EL_SUBPIXEL_BITS) + (int32_t)any_below(&s, 32));
+        }
+    }
+}
+#endif
+
 /* The whole guard band and the whole range of values, at its far corners. */
 static void test_largest_planes(void)
 {
@@ -217,6 +278,9 @@ int main(void)
     RUN_TEST(test_a_ramp);
     RUN_TEST(test_planes_seeded);
     RUN_TEST(test_depth_and_colours_of_small_triangles);
+#if EL_WITH_SMALL_PLANES
+    RUN_TEST(test_small_planes);
+#endif
     RUN_TEST(test_largest_planes);
     return UNITY_END();
 }

@@ -16,8 +16,8 @@ void tearDown(void)
 
 static void test_each_reciprocal(void)
 {
-    for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
-        TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFFU / d, el_reciprocals[d]);
+    for (int32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
+        TEST_ASSERT_EQUAL_HEX32(INT32_MAX / d, el_reciprocals[d]);
         TEST_ASSERT_EQUAL_HEX32(el_reciprocals[d], el_reciprocal_of_short(d));
     }
 }

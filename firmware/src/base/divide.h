@@ -132,32 +132,127 @@ EL_INLINE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
     return (int32_t)(el_divide_u64(magnitude, divisor) ^ sign);
 }
 
-/* n / d as Q32, truncated towards zero, in 64 bits. |n| < 2^31. */
-static inline uint64_t el_divide_i32_q32(int32_t n, const el_divisor *divisor)
+/* Division by a small triangle's doubled area, 1 <= |d| < 2^EL_SMALL_DIVISOR_BITS, which needs no more than a register:
+ * after the whole part, digits for which there is room behind the remainder. Cores without a divider have digits of 16
+ * bits by a reciprocal of as many, for areas and whole parts below 2^16, which few are not. */
+enum { EL_SMALL_DIVISOR_BITS = 19 };
+
+#if defined(EL_DIVIDE_BY_TABLE)
+typedef struct el_small_divisor {
+    int32_t d;
+    uint32_t limit;      /* what |n| >> 16 must be below: |d|, or 0 when it has more than 16 bits */
+    uint32_t normalised; /* |d| << shift, 2^15 to 2^16 - 1 */
+    uint32_t reciprocal; /* floor(2^31 / normalised), or 1 less */
+    uint8_t shift;
+} el_small_divisor;
+
+static inline el_small_divisor el_small_divisor_make(int32_t d)
 {
-    const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
-    const unsigned shift = divisor->shift;
-    uint32_t rest;
-    const uint32_t whole =
-        el_divide_words(shift == 0 ? 0U : magnitude >> (32U - shift), magnitude << shift, divisor, &rest);
-    const uint32_t fraction = el_divide_words(rest, 0, divisor, &rest);
-    const uint64_t quotient = (uint64_t)whole << 32 | fraction;
-    return n < 0 ? 0 - quotient : quotient;
+    const uint32_t magnitude = (uint32_t)(d < 0 ? -d : d);
+    uint32_t normalised = magnitude;
+    unsigned shift = 0;
+    if (normalised >> 8 == 0) {
+        normalised <<= 8;
+        shift = 8;
+    }
+    if (normalised >> 12 == 0) {
+        normalised <<= 4;
+        shift += 4;
+    }
+    if (normalised >> 14 == 0) {
+        normalised <<= 2;
+        shift += 2;
+    }
+    if (normalised >> 15 == 0) {
+        normalised <<= 1;
+        shift += 1;
+    }
+    /* A step of Newton's from the table, as in el_reciprocal_u16. */
+    const uint32_t guess = el_first_guesses[(normalised >> 6) & 511U];
+    const int32_t left = (1 << 30) - (int32_t)(guess * normalised);
+    return (el_small_divisor){
+        .d = d,
+        .limit = magnitude >> 16 == 0 ? magnitude : 0U,
+        .normalised = normalised,
+        .reciprocal = 2U * guess + (uint32_t)(((int32_t)guess * (left >> 5)) >> 24),
+        .shift = (uint8_t)shift,
+    };
 }
 
-/* floor((2^32 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
+/* floor((high * 2^16 + low) / normalised) and what remains. Pre: high < normalised, low < 2^16. */
+static inline uint32_t el_divide_digit(uint32_t high, uint32_t low, const el_small_divisor *divisor,
+                                       uint32_t *remainder)
+{
+    uint32_t quotient = (high * divisor->reciprocal) >> 15; /* too low by 5 at most */
+    uint32_t rest = (high << 16 | low) - quotient * divisor->normalised;
+    while (rest >= divisor->normalised) {
+        rest -= divisor->normalised;
+        quotient++;
+    }
+    *remainder = rest;
+    return quotient;
+}
+#else
+typedef struct el_small_divisor {
+    int32_t d;
+} el_small_divisor;
+
+static inline el_small_divisor el_small_divisor_make(int32_t d)
+{
+    return (el_small_divisor){.d = d};
+}
+#endif
+
+/* n / d as Q32, truncated towards zero, in 64 bits, by a divisor of its own. |n| < 2^31, 1 <= |d| < 2^31. */
+uint64_t el_divide_i32_q32(int32_t n, int32_t d);
+
+/* The same by a divisor that is used several times. */
+static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *divisor)
+{
+#if defined(EL_DIVIDE_BY_TABLE)
+    const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
+    if (magnitude >> 16 >= divisor->limit) {
+        return el_divide_i32_q32(n, divisor->d);
+    }
+    uint32_t rest = magnitude << divisor->shift; /* below |d| << 16 << shift */
+    uint32_t whole = 0;
+    if (rest >= divisor->normalised) {
+        whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, divisor, &rest);
+    }
+    const uint32_t high = el_divide_digit(rest, 0, divisor, &rest);
+    const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, divisor, &rest);
+    return (n ^ divisor->d) < 0 ? 0 - quotient : quotient;
+#else
+    /* Signed: each digit has the quotient's sign, and so has the remainder n's, below 2^19 as d is: 2^12 of it fits. */
+    /* NOLINTBEGIN(clang-analyzer-core.DivideZero): d is not 0. */
+    const int32_t d = divisor->d;
+    const int32_t whole = n / d;
+    int32_t rest = (n - whole * d) * (1 << 12);
+    const int32_t high = rest / d;
+    rest = (rest - high * d) * (1 << 10);
+    const int32_t middle = rest / d;
+    rest = (rest - middle * d) * (1 << 10);
+    const int32_t low = rest / d;
+    /* NOLINTEND(clang-analyzer-core.DivideZero) */
+    const int32_t upper = high * (1 << 10) + middle; /* below 2^22 */
+    const uint64_t sum = (uint64_t)(uint32_t)(whole + (upper >> 22)) << 32 | (uint32_t)upper << 10;
+    return sum + (uint64_t)(int64_t)low;
+#endif
+}
+
+/* floor((2^31 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };
 #if defined(EL_DIVIDE_BY_TABLE)
-extern const uint32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
-static inline uint32_t el_reciprocal_of_short(uint32_t d)
+extern const int32_t el_reciprocals[EL_SHORT_DIVISOR + 1];
+static inline int32_t el_reciprocal_of_short(int32_t d)
 {
     return el_reciprocals[d];
 }
 #else
-static inline uint32_t el_reciprocal_of_short(uint32_t d)
+static inline int32_t el_reciprocal_of_short(int32_t d)
 {
     /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): d >= 1, since an edge with a row of its own has a height. */
-    return 0xFFFFFFFFU / d;
+    return INT32_MAX / d;
 }
 #endif
 

@@ -124,6 +124,16 @@ static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 #endif
 }
 
+/* floor(a * b / 2^11), which fits 32 bits. |a| < 2^15, 0 <= b. */
+static inline int32_t el_product_down_11(int32_t a, int32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return a * (b >> 16) * (1 << 5) + ((a * (b & 0xFFFF)) >> 11);
+#else
+    return (int32_t)(((int64_t)a * b) >> 11);
+#endif
+}
+
 #if defined(EL_PRODUCTS_IN_HALVES)
 static inline void el_add_halves(int32_t a, int32_t b, uint32_t *high, uint32_t *low)
 {

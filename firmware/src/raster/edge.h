@@ -42,30 +42,8 @@ static inline int32_t el_edge_x(const el_edge *edge)
     return (int32_t)(edge->x_q32 >> 32);
 }
 
-#if EL_SUBPIXEL_BITS == 4
-#if EL_SMALL_CODE
-static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
-{
-    return el_ratio_q32(dx, dy);
-}
-#else
-/* Edges up to 511 units high and 1023 wide: a product with a reciprocal instead of three divisions. The step is too low by
- * |dx| units at most, which adds up to 33 * 1024 in the 32 rows and the start; a step of the grid is 2^32 / (16 * 511),
- * 525,314 units. */
+/* Edges up to 511 units high and 1023 wide: in Q20, with a reciprocal's product instead of three divisions. */
 enum { EL_EDGE_SHORT = 511, EL_EDGE_NARROW = 1023 };
-
-static inline int64_t el_edge_step_q32(int32_t dx, uint32_t dy)
-{
-    if (dy > EL_EDGE_SHORT || (uint32_t)(dx + EL_EDGE_NARROW) > 2U * EL_EDGE_NARROW) {
-        return el_ratio_q32(dx, dy);
-    }
-    const uint32_t reciprocal = el_reciprocal_of_short(dy);
-    const uint32_t aside = (uint32_t)(dx < 0 ? -dx : dx);
-    const uint64_t product = el_product_u32_u16(reciprocal, aside);
-    return dx < 0 ? -(int64_t)(product + aside) : (int64_t)product; /* with a unit more, to be rounded down too */
-}
-#endif
-#endif
 
 /* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within
  * +-EL_GUARD_SUB, y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
@@ -77,7 +55,7 @@ static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x
     const int32_t down =
         row * EL_SUBPIXELS + half - y0; /* 0 to 2 * EL_GUARD_SUB, from the corner to the row's centre */
 #if EL_SUBPIXEL_BITS == 4
-    edge->step_q32 = el_edge_step_q32(dx, dy);
+    edge->step_q32 = el_ratio_q32(dx, dy);
     /* (x0 - half + down dx / dy) / 16, rounded up; down < dy, so `down` steps are below 2^32 |dx| + 2^17 < 2^49. */
     const int64_t aside = (int64_t)el_multiply_u16((uint64_t)edge->step_q32, (uint32_t)down) >> EL_SUBPIXEL_BITS;
     edge->x_q32 = (int64_t)((x0 - half) * (int64_t)(1 << (32 - EL_SUBPIXEL_BITS))) + aside + 0xFFFFFFFFLL;
@@ -90,6 +68,32 @@ static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x
     edge->x_q32 = el_wide_ratio_q32(m, dy) + 0xFFFFFFFFLL;
 #endif
 }
+
+#if EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE
+/* By halves, which is two shifts. */
+static inline int64_t el_q20_to_q32(int32_t a_q20)
+{
+    return (int64_t)((uint64_t)(uint32_t)(a_q20 >> 20) << 32 | (uint32_t)a_q20 << 12);
+}
+
+/* The same for |x1 - x0| <= EL_EDGE_NARROW, y1 - y0 <= EL_EDGE_SHORT.
+ *
+ * A step of the grid is at least 2^20 / (16 * 511), 128 units of 2^-20. A reciprocal that is short by up to a unit of
+ * 2^-31, and cutting off what is below 2^-20, leave a step too low by less than 3/2 unit, or too high by less than 1/2
+ * where dx < 0. That is times t / 16 on a row t below the corner, t < 511, and a unit more is cut off where the edge
+ * begins: too low by less than 49 units, too high by less than 16. So what is added first is 48 units less than 1: the
+ * whole part is right as long as 16 < 48 and 48 + 49 <= 128. */
+static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
+{
+    const int32_t half = EL_SUBPIXELS / 2;
+    const int32_t down = row * EL_SUBPIXELS + half - y0;                                   /* 0 to 510 */
+    const int32_t step_q20 = el_product_down_11(x1 - x0, el_reciprocal_of_short(y1 - y0)); /* |step| < 1023 * 2^20 */
+    /* (x0 - half + down dx / dy) / 16, and 1 to be rounded up: |x0 + half| < 2^15, |step * down| < 2^20 * 1024 */
+    const int32_t x_q20 = (x0 + half) * (1 << (20 - EL_SUBPIXEL_BITS)) + ((step_q20 * down) >> EL_SUBPIXEL_BITS) - 48;
+    edge->x_q32 = el_q20_to_q32(x_q20);
+    edge->step_q32 = el_q20_to_q32(step_q20);
+}
+#endif
 
 static inline void el_edge_next_row(el_edge *edge)
 {

@@ -56,17 +56,21 @@ void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, ui
     shade(draw, base_colour(draw, vertex), vertex, turned, rgb_q8);
 }
 
-/* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
-static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turned)
+/* Whether a two-sided triangle shows its back to the light. */
+static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
+{
+    if (!el_is_lit(draw->material) || (draw->material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
+        return false;
+    }
+    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
+    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
+    return el_shows_back(draw, el_doubled_area(x, y));
+}
+
+/* The mean of `count` vertices' colours, or the triangle's own, under their light. */
+static uint16_t mixed_colour(const el_draw_state *draw, uint16_t index, unsigned count, bool turned)
 {
     const uint16_t *const vertices = draw->mesh->triangles[index];
-    const bool mean = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0;
-    if (!EL_SMALL_CODE && !el_is_lit(draw->material) && (draw->mesh->triangle_colours != NULL || !mean)) {
-        const uint8_t *const own =
-            draw->mesh->triangle_colours != NULL ? draw->mesh->triangle_colours[index] : base_colour(draw, vertices[0]);
-        return el_rgb565(own[0], own[1], own[2]);
-    }
-    const unsigned count = mean ? 3 : 1;
     uint32_t sums[3] = {0, 0, 0};
     for (unsigned i = 0; i < count; i++) {
         uint16_t rgb_q8[3];
@@ -83,6 +87,19 @@ static uint16_t flat_colour(const el_draw_state *draw, uint16_t index, bool turn
         rgb[channel] = (uint8_t)((sums[channel] / count + 128U) >> 8);
     }
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
+}
+
+/* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
+static inline uint16_t flat_colour(const el_draw_state *draw, uint16_t index, const el_corner corners[3])
+{
+    const el_mesh *const mesh = draw->mesh;
+    const bool mean = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0;
+    if (!EL_SMALL_CODE && !el_is_lit(draw->material) && (mesh->triangle_colours != NULL || !mean)) {
+        const uint8_t *const own = mesh->triangle_colours != NULL ? mesh->triangle_colours[index]
+                                                                  : base_colour(draw, mesh->triangles[index][0]);
+        return el_rgb565(own[0], own[1], own[2]);
+    }
+    return mixed_colour(draw, index, mean ? 3 : 1, is_turned(draw, corners));
 }
 
 /* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
@@ -114,56 +131,47 @@ static void find_points(const el_draw_state *draw, const el_record *record, el_c
     }
 }
 
+static inline void take_point(el_corner *corner, const el_point *point)
+{
+    corner->x = point->x;
+    corner->y = point->y;
+    corner->z = point->z;
+}
+
+/* 1/w of the corners of a textured record. */
+static void gather_reciprocals(const el_record *record, el_corner corners[3])
+{
+    const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
+    uint8_t shifts[3];
+    for (unsigned i = 0; i < 3; i++) {
+        shifts[i] = (perspective->w_shifts >> (5 * i)) & 31U;
+    }
+    scale_reciprocals(corners, perspective->w, shifts);
+}
+
 /* Where the corners are; of textured ones 1/w. */
-static void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind, el_corner corners[3])
+static inline void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind,
+                                 el_corner corners[3])
 {
     if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
         find_points(draw, record, corners);
         return;
     }
-    for (unsigned i = 0; i < 3; i++) {
-        const el_point *const point = &record->at.points[i];
-        corners[i].x = point->x;
-        corners[i].y = point->y;
-        corners[i].z = point->z;
-    }
+    take_point(&corners[0], &record->at.points[0]);
+    take_point(&corners[1], &record->at.points[1]);
+    take_point(&corners[2], &record->at.points[2]);
     if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
-        const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
-        uint8_t shifts[3];
-        for (unsigned i = 0; i < 3; i++) {
-            shifts[i] = (perspective->w_shifts >> (5 * i)) & 31U;
-        }
-        scale_reciprocals(corners, perspective->w, shifts);
+        gather_reciprocals(record, corners);
     }
 }
 
-/* Whether a two-sided triangle shows its back to the light. */
-static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
+/* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
+static void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
+                              el_corner corners[3])
 {
-    if (!el_is_lit(draw->material) || (draw->material->flags & EL_MATERIAL_TWO_SIDED) == 0) {
-        return false;
-    }
-    const int32_t x[3] = {corners[0].x, corners[1].x, corners[2].x};
-    const int32_t y[3] = {corners[0].y, corners[1].y, corners[2].y};
-    return el_shows_back(draw, el_doubled_area(x, y));
-}
-
-unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
-{
-    const el_record_kind kind = (el_record_kind)el_list_run(list, record)->kind;
-    const el_draw_state *const draw = el_list_draw(list, record);
     const el_shading shading = el_shading_of(draw);
-    surface->shading = shading;
-    surface->depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
-    surface->dither = (draw->material->flags & EL_MATERIAL_DITHER) != 0;
-    surface->texture = draw->material->texture;
-
-    gather_points(draw, record, kind, corners);
     const bool turned = is_turned(draw, corners);
-    if (shading == EL_SHADE_FLAT) {
-        surface->colour = flat_colour(draw, record->index, turned);
-    }
-    for (unsigned i = 0; i < 3 && (el_has_texture(shading) || el_has_colours(shading)); i++) {
+    for (unsigned i = 0; i < 3; i++) {
         el_corner *const corner = &corners[i];
         if (kind == EL_RECORD_CLIPPED) {
             const el_attributes *const own = &((const el_record_clipped *)(const void *)record)->attributes[i];
@@ -180,6 +188,26 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
         if (el_has_colours(shading)) {
             el_shade_vertex(draw, vertex, turned, corner->rgb_q8);
         }
+    }
+}
+
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
+{
+    const el_run *const run = el_list_run(list, record);
+    const el_record_kind kind = (el_record_kind)run->kind;
+    const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
+    const el_material *const material = draw->material;
+    const el_shading shading = el_shading_of(draw);
+    surface->shading = shading;
+    surface->depth = (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
+    surface->dither = (material->flags & EL_MATERIAL_DITHER) != 0;
+    surface->texture = material->texture;
+
+    gather_points(draw, record, kind, corners);
+    if (shading == EL_SHADE_FLAT) {
+        surface->colour = flat_colour(draw, record->index, corners);
+    } else if (shading != EL_SHADE_OVERDRAW) {
+        gather_attributes(draw, record, kind, corners);
     }
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }

@@ -98,30 +98,6 @@ static inline void wide_gradient(gradient *g, const el_plane_frame *frame, const
     }
 }
 
-/* Of values below 2^16: by parts where the triangle is small; in 32 bits then, with two divisions instead of three,
- * unless the code is to be small. */
-static void small_gradient(gradient *g, const el_plane_frame *frame, const anchor *at, int32_t d1, int32_t d2)
-{
-#if EL_SMALL_CODE
-    wide_gradient(g, frame, at, d1, d2, 0, frame->small);
-#else
-#if EL_SUBPIXEL_BITS == 4
-    if (frame->small) {
-        /* |d| < 2^16, so |a|, |b| <= 2 * 65535 * 1023 < 2^27. */
-        const int32_t a = (d1 * frame->dy2 - d2 * frame->dy1) * frame->sign;
-        const int32_t b = (d2 * frame->dx1 - d1 * frame->dx2) * frame->sign;
-        const uint64_t per_x = el_divide_i32_q32(a, &frame->area);
-        const uint64_t per_y = el_divide_i32_q32(b, &frame->area);
-        g->dx = per_x << EL_SUBPIXEL_BITS;
-        g->dy = per_y << EL_SUBPIXEL_BITS;
-        g->offset = el_multiply_u64(per_x, at->to_centre_x) + el_multiply_u64(per_y, at->to_centre_y);
-        return;
-    }
-#endif
-    wide_gradient(g, frame, at, d1, d2, 0, false);
-#endif
-}
-
 static void start_plane(el_plane *plane, const anchor *at, const gradient *g, uint64_t first_q32)
 {
     plane->dx = g->dx;
@@ -141,25 +117,19 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
 {
     const anchor at = anchor_of(frame);
     gradient g;
-    small_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0]);
+    wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], 0, frame->small);
     start_plane(plane, &at, &g, (uint64_t)values[0] << 32);
-}
-
-/* From 8.8 in Q32 to 8.24, rounded; negative numbers modulo 2^32. */
-static uint32_t to_q24(uint64_t value)
-{
-    return (uint32_t)((value + 0x8000U) >> 16);
 }
 
 void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3])
 {
     const anchor at = anchor_of(frame);
     gradient g;
-    small_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0]);
-    const uint32_t dx = to_q24(g.dx);
-    const uint32_t dy = to_q24(g.dy);
+    wide_gradient(&g, frame, &at, values[1] - values[0], values[2] - values[0], 0, frame->small);
+    const uint32_t dx = el_q32_to_q24(g.dx);
+    const uint32_t dy = el_q32_to_q24(g.dy);
     channel->dx = dx;
     channel->dy = dy;
-    channel->value = ((uint32_t)values[0] << 16) + EL_CHANNEL_HALF + to_q24(g.offset) + dx * (uint32_t)at.columns +
-                     dy * (uint32_t)at.rows;
+    channel->value = ((uint32_t)values[0] << 16) + EL_CHANNEL_HALF + el_q32_to_q24(g.offset) +
+                     dx * (uint32_t)at.columns + dy * (uint32_t)at.rows;
 }

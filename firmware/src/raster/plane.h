@@ -58,6 +58,9 @@ typedef struct el_plane_frame {
  * 2^-32 in sum. */
 enum { EL_SMALL_SUB = EL_SUBPIXEL_BITS == 4 ? 1023 : -1 };
 
+/* small_plane.h has a shorter way to the same bits for these. */
+#define EL_WITH_SMALL_PLANES (EL_SUBPIXEL_BITS == 4 && !EL_SMALL_CODE)
+
 /* Corners in 1/EL_SUBPIXELS px, not in a line. x and row are the caller's to set. */
 void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_t y[3]);
 
@@ -70,6 +73,12 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
 
 /* The channel through values[i], 0 to 255 in 8.8. */
 void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3]);
+
+/* From 8.8 in Q32 to 8.24, rounded; negative numbers modulo 2^32. */
+static inline uint32_t el_q32_to_q24(uint64_t value)
+{
+    return (uint32_t)((value + 0x8000U) >> 16);
+}
 
 /* A plane's gradient times a number of pixels or rows, modulo 2^64; |count| < 2^22. */
 EL_INLINE uint64_t el_plane_times(uint64_t gradient, int32_t count)

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "base/fixed.h"
+#include "raster/small_plane.h"
 
 _Static_assert((EL_EDGE_MAX_ROWS + 3LL) * (EL_SUBPIXEL_BITS == 4 ? 16 : 1) * 2 * EL_GUARD_SUB < 1LL << 32,
                "what is cut off on the way is less than a step of the grid");
@@ -15,6 +16,12 @@ uint32_t el_triangle_bytes(el_shading shading)
     return el_has_colours(shading) ? offsetof(el_triangle, perspective) : offsetof(el_triangle, rgb);
 }
 
+/* A triangle's corners from the top to the bottom, and from left to right where they are level: whichever corner the
+ * caller began with, the arithmetic below is the same. */
+typedef struct outline {
+    const el_corner *top, *middle, *bottom;
+} outline;
+
 static inline void put_in_order(const el_corner **first, const el_corner **second)
 {
     const el_corner *const a = *first;
@@ -25,16 +32,13 @@ static inline void put_in_order(const el_corner **first, const el_corner **secon
     }
 }
 
-/* Corners from the top to the bottom, and from left to right where they are level: whichever corner the caller began
- * with, the arithmetic below is the same. */
-static inline void sort_corners(const el_corner corners[3], const el_corner *sorted[3])
+static inline outline sort_corners(const el_corner corners[3])
 {
-    for (unsigned i = 0; i < 3; i++) {
-        sorted[i] = &corners[i];
-    }
-    put_in_order(&sorted[0], &sorted[1]);
-    put_in_order(&sorted[1], &sorted[2]);
-    put_in_order(&sorted[0], &sorted[1]);
+    outline o = {.top = &corners[0], .middle = &corners[1], .bottom = &corners[2]};
+    put_in_order(&o.top, &o.middle);
+    put_in_order(&o.middle, &o.bottom);
+    put_in_order(&o.top, &o.middle);
+    return o;
 }
 
 /* u/w and v/w at the corners, relative to the middle of their range, scaled so that |U| < 2^31, with
@@ -85,64 +89,148 @@ static void make_perspective(el_perspective *perspective, const el_corner *const
     el_plane_make(&perspective->v, frame, values, EL_PLANE_FRACTION_BITS);
 }
 
-static void make_planes(el_triangle *triangle, const el_corner *const corners[3], const el_plane_frame *frame)
+/* What is linear on the screen, of any triangle: the textured part, and the others unless they are there already. */
+static __attribute__((noinline)) void make_planes(el_triangle *triangle, const outline *sorted, bool texture_alone)
 {
-    const el_shading shading = triangle->surface.shading;
-    if (triangle->surface.depth) {
-        const uint16_t z[3] = {corners[0]->z, corners[1]->z, corners[2]->z};
-        el_plane_make_u16(&triangle->z, frame, z);
-    }
-    if (el_has_colours(shading)) {
-        for (unsigned i = 0; i < 3; i++) {
-            const uint16_t values[3] = {corners[0]->rgb_q8[i], corners[1]->rgb_q8[i], corners[2]->rgb_q8[i]};
-            el_channel_make(&triangle->rgb[i], frame, values);
-        }
-    }
-    if (el_has_texture(shading)) {
-        make_perspective(&triangle->perspective, corners, frame);
-    }
-}
-
-bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row)
-{
-    const el_corner *sorted[3];
-    sort_corners(corners, sorted);
-    const int32_t x[3] = {sorted[0]->x, sorted[1]->x, sorted[2]->x};
-    const int32_t y[3] = {sorted[0]->y, sorted[1]->y, sorted[2]->y};
-    const int32_t y_begin = el_max_i32(first_row, el_first_centre(y[0]));
-    const int32_t y_middle = el_first_centre(y[1]);
-    const int32_t y_end = el_first_centre(y[2]);
-    const int64_t area = el_doubled_area(x, y);
-    if (y_begin >= y_end || area == 0) {
-        return false;
-    }
-    triangle->surface = *surface;
-    triangle->y = (int16_t)y_begin;
-    triangle->y_middle = (int16_t)y_middle;
-    triangle->y_end = (int16_t)y_end;
-    triangle->x_begin = (int16_t)el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
-    triangle->x_end = (int16_t)el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
-    /* With y down, a positive area means that the middle corner is on the right of the long edge. */
-    triangle->short_is_left = area < 0;
-    el_edge *const short_edge = triangle->short_is_left ? &triangle->left : &triangle->right;
-    el_edge *const long_edge = triangle->short_is_left ? &triangle->right : &triangle->left;
-    el_edge_make(long_edge, x[0], y[0], x[2], y[2], y_begin);
-    if (y_begin < y_middle) {
-        el_edge_make(short_edge, x[0], y[0], x[1], y[1], y_begin);
-        if (y_middle < y_end) {
-            el_edge_make(&triangle->lower, x[1], y[1], x[2], y[2], y_middle);
-        } else {
-            triangle->y_middle = INT16_MAX;
-        }
-    } else {
-        el_edge_make(short_edge, x[1], y[1], x[2], y[2], y_begin);
-        triangle->y_middle = INT16_MAX;
-    }
-
+    const el_corner *const corners[3] = {sorted->top, sorted->middle, sorted->bottom};
+    const int32_t x[3] = {corners[0]->x, corners[1]->x, corners[2]->x};
+    const int32_t y[3] = {corners[0]->y, corners[1]->y, corners[2]->y};
     el_plane_frame frame;
     el_plane_frame_make(&frame, x, y);
     frame.x = 0;
-    frame.row = y_begin;
-    make_planes(triangle, sorted, &frame);
+    frame.row = triangle->y;
+    if (triangle->surface.depth && !texture_alone) {
+        const uint16_t z[3] = {corners[0]->z, corners[1]->z, corners[2]->z};
+        el_plane_make_u16(&triangle->z, &frame, z);
+    }
+    if (el_has_colours(triangle->surface.shading) && !texture_alone) {
+        for (unsigned i = 0; i < 3; i++) {
+            const uint16_t values[3] = {corners[0]->rgb_q8[i], corners[1]->rgb_q8[i], corners[2]->rgb_q8[i]};
+            el_channel_make(&triangle->rgb[i], &frame, values);
+        }
+    }
+    if (el_has_texture(triangle->surface.shading)) {
+        make_perspective(&triangle->perspective, corners, &frame);
+    }
+}
+
+static EL_SPECIALISED void make_edge(el_edge *edge, const el_corner *from, const el_corner *to, int32_t row,
+                                     bool edges_are_short)
+{
+#if EL_WITH_SMALL_PLANES
+    if (edges_are_short) {
+        el_edge_make_short(edge, from->x, from->y, to->x, to->y, row);
+        return;
+    }
+#endif
+    (void)edges_are_short;
+    el_edge_make(edge, from->x, from->y, to->x, to->y, row);
+}
+
+/* All but the planes, from row y_begin on. */
+static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const el_surface *surface, int32_t y_begin,
+                                 bool short_is_left, bool edges_are_short)
+{
+    const int32_t y_middle = el_first_centre(o->middle->y);
+    const int32_t y_end = el_first_centre(o->bottom->y);
+    triangle->surface = *surface;
+    triangle->y = (int16_t)y_begin;
+    triangle->y_end = (int16_t)y_end;
+    triangle->short_is_left = short_is_left;
+    /* The middle corner can only be beyond the others on its own side. */
+    int32_t least = el_min_i32(o->top->x, o->bottom->x);
+    int32_t most = el_max_i32(o->top->x, o->bottom->x);
+    el_edge *bent = &triangle->right;
+    el_edge *straight = &triangle->left;
+    if (short_is_left) {
+        bent = &triangle->left;
+        straight = &triangle->right;
+        least = el_min_i32(least, o->middle->x);
+    } else {
+        most = el_max_i32(most, o->middle->x);
+    }
+    triangle->x_begin = (int16_t)el_first_centre(least);
+    triangle->x_end = (int16_t)el_first_centre(most);
+    make_edge(straight, o->top, o->bottom, y_begin, edges_are_short);
+    int32_t y_bend = INT16_MAX;
+    int32_t y_lower = y_begin;
+    if (y_begin < y_middle) {
+        make_edge(bent, o->top, o->middle, y_begin, edges_are_short);
+        bent = &triangle->lower;
+        y_lower = y_middle;
+        y_bend = y_middle < y_end ? y_middle : y_bend;
+    }
+    triangle->y_middle = (int16_t)y_bend;
+    if (y_middle < y_end) {
+        make_edge(bent, o->middle, o->bottom, y_lower, edges_are_short);
+    }
+}
+
+/* The way of larger triangles, apart, so that it takes no registers from that of most. */
+static __attribute__((noinline)) bool set_up_large(el_triangle *triangle, const outline *o, const el_surface *surface,
+                                                   int32_t y_begin)
+{
+    const int32_t x[3] = {o->top->x, o->middle->x, o->bottom->x};
+    const int32_t y[3] = {o->top->y, o->middle->y, o->bottom->y};
+    const int64_t area = el_doubled_area(x, y);
+    if (area == 0) {
+        return false;
+    }
+    begin(triangle, o, surface, y_begin, area < 0, false);
+    make_planes(triangle, o, false);
     return true;
+}
+
+#if EL_WITH_SMALL_PLANES
+static inline void make_small_planes(el_triangle *triangle, const outline *o, const el_small_shape *shape, int32_t area)
+{
+    const el_small_frame frame = {
+        .shape = *shape,
+        .x0 = o->top->x,
+        .y0 = o->top->y,
+        .row = triangle->y,
+        .area = el_small_divisor_make(area),
+    };
+    if (triangle->surface.depth) {
+        el_small_plane_make(&triangle->z, &frame, o->top->z, o->middle->z, o->bottom->z);
+    }
+    if (el_has_colours(triangle->surface.shading)) {
+        for (unsigned i = 0; i < 3; i++) {
+            el_small_channel_make(&triangle->rgb[i], &frame, o->top->rgb_q8[i], o->middle->rgb_q8[i],
+                                  o->bottom->rgb_q8[i]);
+        }
+    }
+    if (el_has_texture(triangle->surface.shading)) {
+        const outline again = *o;
+        make_planes(triangle, &again, true);
+    }
+}
+#endif
+
+bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row)
+{
+    const outline o = sort_corners(corners);
+    const int32_t y_begin = el_max_i32(first_row, el_first_centre(o.top->y));
+    if (y_begin >= el_first_centre(o.bottom->y)) {
+        return false;
+    }
+#if EL_WITH_SMALL_PLANES
+    const el_small_shape shape = {
+        .dx1 = o.middle->x - o.top->x,
+        .dy1 = o.middle->y - o.top->y,
+        .dx2 = o.bottom->x - o.top->x,
+        .dy2 = o.bottom->y - o.top->y,
+    };
+    if (el_shape_is_small(&shape)) {
+        const int32_t area = el_small_area(&shape);
+        if (area == 0) {
+            return false;
+        }
+        begin(triangle, &o, surface, y_begin, area < 0, true);
+        make_small_planes(triangle, &o, &shape, area);
+        return true;
+    }
+#endif
+    const outline again = o;
+    return set_up_large(triangle, &again, surface, y_begin);
 }
