@@ -29,6 +29,7 @@ extern "C" {
 #endif
 
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
+#define EL_LIST_BYTES(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
 
 typedef enum el_record_kind {
     EL_RECORD_THIN,        /* the first EL_THIN_BYTES of an el_record */
@@ -73,8 +74,8 @@ static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area
 
 typedef struct el_run {
     uint16_t draw; /* its el_draw_state, behind this header or behind an earlier one's */
-    uint16_t count;
-    uint8_t kind; /* el_record_kind */
+    uint16_t end;  /* name of what follows its last record; valid when it no longer takes records */
+    uint8_t kind;  /* el_record_kind */
 } el_run;
 
 typedef struct el_point {
@@ -83,17 +84,16 @@ typedef struct el_point {
 } el_point;
 
 typedef struct el_record {
-    uint16_t next;  /* in its bin or in the list of active triangles; 0: none */
+    uint16_t next;  /* in its bin; 0: none */
     uint16_t run;   /* its el_run */
-    uint16_t index; /* of the mesh's triangle; EL_INDEX_ACTIVE: set up, and its state is in place of the points */
+    uint16_t index; /* of the mesh's triangle */
     union {
         el_point points[3];
-        uint16_t state; /* of an active triangle: its el_triangle */
-        int16_t row;    /* of a thin one: the first row with a pixel centre inside */
+        int16_t row; /* of a thin one: the first row with a pixel centre inside */
     } at;
 } el_record;
 
-enum { EL_INDEX_ACTIVE = 0xFFFF, EL_THIN_BYTES = offsetof(el_record, at) + sizeof(int16_t) };
+enum { EL_THIN_BYTES = offsetof(el_record, at) + sizeof(int16_t) };
 
 typedef struct el_record_perspective {
     el_record record;
@@ -114,14 +114,13 @@ typedef struct el_record_clipped {
 typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
-    uint16_t band_lines;
-    bool is_thin;           /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
-    uint8_t *base;          /* 8-byte aligned */
-    uint32_t end;           /* bytes that may be used now */
-    uint32_t used;          /* bytes */
-    uint16_t *bins;         /* last record of each band; 0: none */
-    uint64_t rows_to_bands; /* unless EL_SMALL_CODE: 2^32 / band_lines, rounded up: a product instead of a division,
-                               exact for rows < 2^16 */
+    bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
+    uint32_t bands_per_row;
+    uint8_t *base;  /* 8-byte aligned */
+    uint32_t end;   /* bytes that may be used now; at least `used` */
+    uint32_t used;  /* bytes */
+    uint16_t *bins; /* last record of each band; 0: none */
 } el_list;
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
@@ -139,6 +138,19 @@ static inline const el_draw_state *el_list_draw(const el_list *list, const el_re
     return (const el_draw_state *)el_list_at(list, el_list_run(list, record)->draw);
 }
 
+/* Bytes of a record of that kind, in whole units. */
+static inline uint32_t el_list_record_bytes(el_record_kind kind)
+{
+    static const uint8_t bytes[EL_RECORD_KINDS] = {
+        [EL_RECORD_THIN] = EL_LIST_BYTES(EL_THIN_BYTES),
+        [EL_RECORD_PLAIN] = EL_LIST_BYTES(sizeof(el_record)),
+        [EL_RECORD_CUT] = EL_LIST_BYTES(sizeof(el_record)),
+        [EL_RECORD_PERSPECTIVE] = EL_LIST_BYTES(sizeof(el_record_perspective)),
+        [EL_RECORD_CLIPPED] = EL_LIST_BYTES(sizeof(el_record_clipped)),
+    };
+    return bytes[kind];
+}
+
 static inline bool el_list_is_thin(const el_list *list)
 {
     return EL_WITH_THIN && list->is_thin;
@@ -153,12 +165,49 @@ void el_list_clear(el_list *list);
 /* The next record belongs to another draw call. */
 static inline void el_list_end_draw(el_list *list)
 {
-    list->run = 0;
+    if (list->run != 0) {
+        ((el_run *)el_list_at(list, list->run))->end = (uint16_t)(list->used / EL_LIST_UNIT);
+        list->run = 0;
+    }
 }
 
-/* Appends a record of that kind to the bin of the band that has screen row `row`, opening a run if the last one is of
- * another kind, and for `draw` if the last draw call has ended. Its run and next are set; the caller fills in the rest.
- * NULL when it is full. */
+/* The band that has screen row `row`, 0 <= row < EL_MAX_HEIGHT. */
+static inline uint32_t el_list_band_of(const el_list *list, int32_t row)
+{
+    return (uint32_t)row * list->bands_per_row >> list->band_shift;
+}
+
+/* Puts a record into the bin of the band that has screen row `row`, as its last. */
+EL_INLINE void el_list_put(const el_list *list, el_record *record, int32_t row)
+{
+    uint16_t *const bin = &list->bins[el_list_band_of(list, row)];
+    const uint16_t name = (uint16_t)((uint32_t)((const uint8_t *)record - list->base) / EL_LIST_UNIT);
+    if (*bin == 0) {
+        record->next = name;
+    } else {
+        el_record *const last = (el_record *)el_list_at(list, *bin);
+        record->next = last->next;
+        last->next = name;
+    }
+    *bin = name;
+}
+
+/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
+ * Its run and next are set; the caller fills in the rest. NULL when the list is full. Where a caller has a copy of the
+ * list, for as long as nobody else looks at it, all that this changes but the records stays in registers. */
+EL_INLINE el_record *el_list_append_same(el_list *list, uint32_t bytes, int32_t row)
+{
+    if (bytes > list->end - list->used) {
+        return NULL;
+    }
+    el_record *const record = (el_record *)(void *)(list->base + list->used);
+    list->used += bytes;
+    record->run = list->run;
+    el_list_put(list, record, row);
+    return record;
+}
+
+/* The same for any kind: opens a run if the last one is of another kind, and for `draw` if the last draw call has ended. */
 el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row);
 
 /* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
