@@ -65,6 +65,7 @@ static void place_vertices(drawing *d)
     uint32_t bytes;
     if (direct_bytes <= depth_bytes + free_bytes / 4) {
         d->direct = true;
+        d->slot_mask = UINT16_MAX;
         bytes = EL_ROUND_UP_8(direct_bytes);
     } else {
         d->direct = false;
@@ -91,7 +92,7 @@ static void cache_vertex(drawing *d, uint32_t index)
 {
     const uint32_t slot = index & d->slot_mask;
     uint32_t count = 1;
-    if (index == d->next_vertex) {
+    if (!EL_SMALL_CODE && index == d->next_vertex) {
         const uint32_t left = d->mesh->vertex_count - index;
         const uint32_t slots_left = d->slot_mask + 1U - slot;
         count = left < slots_left ? left : slots_left;
@@ -104,6 +105,7 @@ static void cache_vertex(drawing *d, uint32_t index)
     }
 }
 
+#if !EL_SMALL_CODE
 /* Puts a triangle's vertices into the cache. False where they do not go there together. */
 static inline bool cache_vertices(drawing *d, const uint16_t indices[3])
 {
@@ -120,22 +122,26 @@ static inline bool cache_vertices(drawing *d, const uint16_t indices[3])
     }
     return *a == indices[0] && *b == indices[1] && *c == indices[2];
 }
+#endif
 
-/* A triangle's vertices: at their places, or where two of them share one in the cache, copies. */
+/* A triangle's vertices: at their places, or where two of them share one in the cache, and in small code, copies. */
 static void find_vertices(drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
 {
-    const bool in_place = d->direct || (!EL_SMALL_CODE && cache_vertices(d, indices));
+#if EL_SMALL_CODE
+    const bool in_place = false;
+#else
+    const bool in_place = d->direct || cache_vertices(d, indices);
+#endif
     for (unsigned i = 0; i < 3; i++) {
-        el_screen_vertex *const vertex = &d->vertices[d->direct ? indices[i] : indices[i] & d->slot_mask];
-        if (in_place) {
-            v[i] = vertex;
-            continue;
-        }
-        if (d->cached[indices[i] & d->slot_mask] != indices[i]) {
+        const uint32_t slot = indices[i] & d->slot_mask;
+        if (!d->direct && d->cached[slot] != indices[i]) {
             cache_vertex(d, indices[i]);
         }
-        copies[i] = *vertex;
-        v[i] = &copies[i];
+        v[i] = &d->vertices[slot];
+        if (!in_place) {
+            copies[i] = *v[i];
+            v[i] = &copies[i];
+        }
     }
 }
 
@@ -212,41 +218,37 @@ static el_record_kind whole_kind(const drawing *d)
 static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex *const v[3],
                          const el_clip_corner *const cut[3])
 {
-    el_list *const list = &d->renderer->list;
-    el_cull_rows rows;
-    el_verdict verdict = el_cull(&d->culling, v, &rows);
-    if (verdict != EL_VERDICT_SEEN) {
-        d->verdicts[verdict]++;
-        return;
-    }
-    el_record_kind kind = cut != NULL ? d->cut_kind : whole_kind(d);
-    el_record *record = el_list_append(list, &d->state, kind, rows.begin);
-    /* The vertices' place may be needed. */
+#if !EL_SMALL_CODE
     el_screen_vertex copies[3];
     const el_screen_vertex *const kept[3] = {&copies[0], &copies[1], &copies[2]};
-    if (record == NULL) {
-        copies[0] = *v[0];
-        copies[1] = *v[1];
-        copies[2] = *v[2];
-        v = kept;
-    }
-    while (record == NULL) {
-        if (make_room(d->renderer)) {
-            place_vertices(d);
+#endif
+    for (;;) {
+        el_cull_rows rows;
+        const el_verdict verdict = el_cull(&d->culling, v, &rows);
+        if (verdict == EL_VERDICT_SEEN) {
+            const el_record_kind kind = cut != NULL ? d->cut_kind : whole_kind(d);
+            el_record *const record = el_list_append(&d->renderer->list, &d->state, kind, rows.begin);
+            if (record == NULL) {
+#if !EL_SMALL_CODE
+                /* Their place may be needed. */
+                for (unsigned i = 0; i < 3; i++) {
+                    copies[i] = *v[i];
+                }
+                v = kept;
+#endif
+                if (make_room(d->renderer)) {
+                    place_vertices(d);
+                }
+                find_rows(d);
+                continue;
+            }
+            fill_record(record, index, v, kind, rows.first);
+            if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
+                fill_clipped(record, cut);
+            }
         }
-        find_rows(d);
-        verdict = el_cull_by_rows(&d->culling, &rows);
-        if (verdict != EL_VERDICT_SEEN) {
-            d->verdicts[verdict]++;
-            return;
-        }
-        kind = cut != NULL ? d->cut_kind : whole_kind(d);
-        record = el_list_append(list, &d->state, kind, rows.begin);
-    }
-    d->verdicts[EL_VERDICT_SEEN]++;
-    fill_record(record, index, v, kind, rows.first);
-    if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
-        fill_clipped(record, cut);
+        d->verdicts[verdict]++;
+        return;
     }
 }
 

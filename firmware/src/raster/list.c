@@ -4,9 +4,6 @@
 
 #include "base/fixed.h"
 
-EL_INLINE_HERE void el_list_put(const el_list *list, el_record *record, int32_t row);
-EL_INLINE_HERE el_record *el_list_append_same(el_list *list, uint32_t bytes, int32_t row);
-
 void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines)
 {
     list->base = memory;

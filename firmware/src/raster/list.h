@@ -178,7 +178,7 @@ static inline uint32_t el_list_band_of(const el_list *list, int32_t row)
 }
 
 /* Puts a record into the bin of the band that has screen row `row`, as its last. */
-EL_INLINE void el_list_put(const el_list *list, el_record *record, int32_t row)
+static inline void el_list_put(const el_list *list, el_record *record, int32_t row)
 {
     uint16_t *const bin = &list->bins[el_list_band_of(list, row)];
     const uint16_t name = (uint16_t)((uint32_t)((const uint8_t *)record - list->base) / EL_LIST_UNIT);
@@ -195,7 +195,7 @@ EL_INLINE void el_list_put(const el_list *list, el_record *record, int32_t row)
 /* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
  * Its run and next are set; the caller fills in the rest. NULL when the list is full. Where a caller has a copy of the
  * list, for as long as nobody else looks at it, all that this changes but the records stays in registers. */
-EL_INLINE el_record *el_list_append_same(el_list *list, uint32_t bytes, int32_t row)
+static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, int32_t row)
 {
     if (bytes > list->end - list->used) {
         return NULL;
