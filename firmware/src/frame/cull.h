@@ -37,10 +37,10 @@ typedef struct el_culling {
     int32_t row_end;
 } el_culling;
 
-/* Rows of a triangle that is seen: [begin, end), begin not above the pass. */
+/* Rows of a triangle that is seen: [first, end), of which `begin` is the first in the pass. */
 typedef struct el_cull_rows {
-    int32_t begin, end;
-    int32_t first; /* of the triangle: begin, or above the pass */
+    int32_t first, end;
+    int32_t begin;
 } el_cull_rows;
 
 static inline el_verdict el_cull_by_rows(const el_culling *culling, el_cull_rows *rows)

@@ -12,6 +12,7 @@
  * transformed when a triangle asks for it and may be asked for again after another took its place. Where triangles ask
  * for one vertex after the other, as they do in most meshes, several are transformed at a time. */
 enum { NO_VERTEX = 0xFFFF /* meshes have at most 65535 vertices */, VERTICES_AHEAD = 16 };
+enum { VERTICES_SHARED = 64 /* from so many on, the workers' start is worth it */ };
 
 /* Attributes of corners that are cut. */
 enum { U, V, RGB };
@@ -23,6 +24,7 @@ typedef struct drawing {
     el_record_kind kind;     /* of its triangles */
     el_record_kind cut_kind; /* of those that are cut */
     uint32_t slot_mask;      /* a vertex' slot is its index & slot_mask */
+    uint32_t ahead;          /* so many are transformed at a time, one after the other */
     uint32_t next_vertex;    /* the one behind those that were put into the cache last */
     el_screen_vertex *vertices;
     uint16_t *cached; /* indices of the vertices in the cache's slots */
@@ -36,10 +38,10 @@ static void find_rows(drawing *d)
 {
     const el_renderer *const renderer = d->renderer;
     d->culling.row_begin = renderer->pass_begin * renderer->config.band_lines;
-    d->culling.row_end = renderer->pass_end * renderer->config.band_lines;
+    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, renderer->config.height);
 }
 
-static void transform_vertices(const drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
+static void transform_run(const drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
 {
 #if EL_SMALL_CODE
     for (uint32_t i = 0; i < count; i++) {
@@ -48,18 +50,49 @@ static void transform_vertices(const drawing *d, uint32_t first, uint32_t count,
 #else
     el_transform_vertices(&d->state.transform, d->mesh->positions + first, count, screen);
 #endif
-    el_count(&d->renderer->stats.vertices, count);
 }
 
-/* Places the vertices: over the depth band if no band is open, and over at most a quarter of the list's free memory. */
+#if EL_WITH_WORKERS
+typedef struct vertex_job {
+    const drawing *drawing;
+    uint32_t first, count;
+    el_screen_vertex *screen;
+} vertex_job;
+
+/* The worker's part of the vertices: as many as each other's, one more or less. */
+static void transform_part(void *argument, unsigned worker)
+{
+    const vertex_job *const job = argument;
+    const uint32_t workers = job->drawing->renderer->workers;
+    const uint32_t begin = job->count * worker / workers; /* count < 2^16 */
+    const uint32_t end = job->count * (worker + 1U) / workers;
+    transform_run(job->drawing, job->first + begin, end - begin, job->screen + begin);
+}
+#endif
+
+static void transform_vertices(const drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
+{
+    el_count(&d->renderer->stats.vertices, count);
+#if EL_WITH_WORKERS
+    if (d->renderer->workers > 1 && count >= VERTICES_SHARED) {
+        const el_workers *const workers = d->renderer->config.workers;
+        vertex_job job = {.drawing = d, .first = first, .count = count, .screen = screen};
+        workers->start(workers->context, transform_part, &job);
+        transform_part(&job, 0);
+        workers->wait(workers->context);
+        return;
+    }
+#endif
+    transform_run(d, first, count, screen);
+}
+
+/* Places the vertices: over the depth bands if no band is open, and over at most a quarter of the list's free memory. */
 static void place_vertices(drawing *d)
 {
     el_renderer *const renderer = d->renderer;
     el_list *const list = &renderer->list;
     uint8_t *const list_end = list->base + renderer->list_bytes;
-    const uint32_t depth_bytes = renderer->band_is_open ? 0U
-                                                        : EL_DEPTH_BAND_BYTES((uint32_t)renderer->config.width,
-                                                                              (uint32_t)renderer->config.band_lines);
+    const uint32_t depth_bytes = renderer->painter.band_is_open ? 0U : renderer->depth_bytes;
     const uint32_t free_bytes = renderer->list_bytes - list->used;
     const uint32_t direct_bytes = d->mesh->vertex_count * (uint32_t)sizeof(el_screen_vertex);
     uint32_t bytes;
@@ -84,6 +117,8 @@ static void place_vertices(drawing *d)
     }
     d->cached = (uint16_t *)(void *)(d->vertices + d->slot_mask + 1U);
     d->next_vertex = NO_VERTEX;
+    const uint32_t shared = (d->slot_mask + 1U) / 4;
+    d->ahead = EL_WITH_WORKERS && renderer->workers > 1 && shared > VERTICES_AHEAD ? shared : VERTICES_AHEAD;
     memset(d->cached, 0xFF, (d->slot_mask + 1U) * sizeof d->cached[0]);
 }
 
@@ -96,7 +131,7 @@ static void cache_vertex(drawing *d, uint32_t index)
         const uint32_t left = d->mesh->vertex_count - index;
         const uint32_t slots_left = d->slot_mask + 1U - slot;
         count = left < slots_left ? left : slots_left;
-        count = count < VERTICES_AHEAD ? count : VERTICES_AHEAD;
+        count = count < d->ahead ? count : d->ahead;
     }
     d->next_vertex = index + count;
     transform_vertices(d, index, count, d->vertices + slot);
@@ -164,7 +199,7 @@ static bool make_room(el_renderer *renderer)
         el_list_keep_rows(&renderer->list, renderer->pass_begin * lines, renderer->pass_end * lines);
         return false;
     }
-    const bool was_open = renderer->band_is_open;
+    const bool was_open = renderer->painter.band_is_open;
     el_bands_flush(renderer);
     return !was_open;
 }
@@ -227,7 +262,8 @@ static void add_triangle(drawing *d, uint16_t index, const el_screen_vertex *con
         const el_verdict verdict = el_cull(&d->culling, v, &rows);
         if (verdict == EL_VERDICT_SEEN) {
             const el_record_kind kind = cut != NULL ? d->cut_kind : whole_kind(d);
-            el_record *const record = el_list_append(&d->renderer->list, &d->state, kind, rows.begin);
+            const int32_t row_end = el_min_i32(rows.end, d->culling.row_end);
+            el_record *const record = el_list_append(&d->renderer->list, &d->state, kind, rows.begin, row_end);
             if (record == NULL) {
 #if !EL_SMALL_CODE
                 /* Their place may be needed. */
@@ -368,8 +404,8 @@ static void draw_triangle(drawing *d, uint32_t index)
 #if EL_CULLS_IN_VIEW
 /* Draws the triangles from number `index` on while they are simple: within the view or all beside it, their vertices in
  * their places, and room for the record in the open run. Returns the number of the first that is not. All that changes
- * stays in registers. */
-static EL_SPECIALISED uint32_t draw_in_view(drawing *d, uint32_t index, const bool direct)
+ * stays in registers. `direct` as in `drawing`; `shared` as in its list. */
+static EL_SPECIALISED uint32_t draw_in_view(drawing *d, uint32_t index, bool direct, bool shared)
 {
     const uint32_t count = d->mesh->triangle_count;
     const el_record_kind kind = whole_kind(d);
@@ -404,10 +440,17 @@ static EL_SPECIALISED uint32_t draw_in_view(drawing *d, uint32_t index, const bo
             verdicts[verdict]++;
             continue;
         }
-        el_record *const record = el_list_append_same(&list, record_bytes, rows.begin);
+        const int32_t row_end = el_min_i32(rows.end, culling.row_end);
+        const uint32_t share_bytes = shared ? el_list_share_bytes(&list, rows.begin, row_end) : 0U;
+        el_record *const record = el_list_append_same(&list, record_bytes, share_bytes, rows.begin);
         if (record == NULL) {
             break;
         }
+#if EL_WITH_WORKERS
+        if (share_bytes != 0) {
+            list.used = el_list_share(&d->renderer->list, record, list.used, rows.begin, row_end);
+        }
+#endif
         fill_record(record, (uint16_t)index, v, kind, rows.first);
     }
     d->renderer->list = list;
@@ -425,7 +468,11 @@ static void draw_triangles(drawing *d)
     const uint32_t count = d->mesh->triangle_count;
     for (uint32_t i = 0; i < count; i++) {
 #if EL_CULLS_IN_VIEW
-        i = d->direct ? draw_in_view(d, i, true) : draw_in_view(d, i, false);
+        if (EL_WITH_WORKERS && d->renderer->list.is_shared) {
+            i = draw_in_view(d, i, d->direct, true);
+        } else {
+            i = d->direct ? draw_in_view(d, i, true, false) : draw_in_view(d, i, false, false);
+        }
         if (i == count) {
             break;
         }

@@ -9,7 +9,9 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
     list->base = memory;
     list->end = bytes;
     list->bins = bins;
+    list->band_lines = band_lines;
     list->bin_count = bin_count;
+    list->is_shared = false;
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
@@ -43,13 +45,37 @@ static el_run *open_run(el_list *list, el_record_kind kind, const el_draw_state 
     return run;
 }
 
-el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row)
+/* Puts a share of record `name` into the list's memory at byte `at`. Returns where it ends. */
+static uint32_t put_share(const el_list *list, uint16_t name, uint32_t at, int32_t row)
+{
+    el_record *const share = (el_record *)(void *)(list->base + at);
+    share->run = 0;
+    share->index = name;
+    share->at.row = (int16_t)row;
+    el_list_put(list, share, row);
+    return at + el_list_record_bytes(EL_RECORD_THIN);
+}
+
+#if EL_WITH_WORKERS
+uint32_t el_list_share(const el_list *list, const el_record *record, uint32_t at, int32_t row, int32_t row_end)
+{
+    const uint32_t end = el_list_band_of(list, row_end - 1) + 1U;
+    uint32_t band = el_list_band_of(list, row);
+    for (band += EL_GROUP_BANDS - band % EL_GROUP_BANDS; band < end; band += EL_GROUP_BANDS) {
+        at = put_share(list, el_list_name(list, record), at, (int32_t)(band * list->band_lines));
+    }
+    return at;
+}
+#endif
+
+el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row, int32_t row_end)
 {
     el_run *run = el_list_at(list, list->run);
     const bool opens_draw = list->run == 0;
     const bool opens_run = opens_draw || run->kind != (uint8_t)kind;
     const uint32_t bytes = el_list_record_bytes(kind);
-    const uint32_t needed = bytes + (opens_run ? EL_LIST_BYTES(sizeof(el_run)) : 0U) +
+    const uint32_t share_bytes = el_list_share_bytes(list, row, row_end);
+    const uint32_t needed = bytes + share_bytes + (opens_run ? EL_LIST_BYTES(sizeof(el_run)) : 0U) +
                             (opens_draw ? EL_LIST_BYTES(EL_DRAW_STATE_BYTES) : 0U);
     if (needed > list->end - list->used) {
         return NULL;
@@ -59,7 +85,13 @@ el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_ki
         el_list_end_draw(list);
         open_run(list, kind, opens_draw ? draw : NULL, draw_name);
     }
-    return el_list_append_same(list, bytes, row);
+    el_record *const record = el_list_append_same(list, bytes, share_bytes, row);
+#if EL_WITH_WORKERS
+    if (share_bytes != 0) {
+        list->used = el_list_share(list, record, list->used, row, row_end);
+    }
+#endif
+    return record;
 }
 
 static int32_t first_row(const el_record *record, el_record_kind kind)
@@ -81,8 +113,19 @@ typedef struct run_records {
 static void move_records(el_list *list, const run_records *from, el_record_kind wanted, int32_t row_begin,
                          int32_t row_end)
 {
-    for (uint32_t at = from->begin; at < from->end; at += el_list_record_bytes(from->kind)) {
+    uint16_t kept = 0; /* name of the record whose shares come next, in the new part; 0: it is not there */
+    for (uint32_t at = from->begin; at < from->end;) {
         const uint8_t *const old = list->base + at;
+        if (EL_WITH_WORKERS && ((const el_record *)(const void *)old)->run == 0) {
+            at += el_list_record_bytes(EL_RECORD_THIN);
+            const int32_t group_row = ((const el_record *)(const void *)old)->at.row;
+            if (kept != 0 && group_row < row_end) {
+                list->used = put_share(list, kept, list->used, group_row);
+            }
+            continue;
+        }
+        at += el_list_record_bytes(from->kind);
+        kept = 0;
         const int32_t row = first_row((const el_record *)(const void *)old, from->kind);
         if (row >= row_end) {
             continue;
@@ -95,6 +138,7 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
         record->run = list->run;
         el_list_put(list, record, el_max_i32(row, row_begin));
         list->used += el_list_record_bytes(wanted);
+        kept = el_list_name(list, record);
     }
 }
 
@@ -157,7 +201,7 @@ void el_list_make_thin(el_list *list, int32_t row_begin)
 }
 #endif
 
-uint16_t el_list_take_bin(el_list *list, uint16_t band)
+uint16_t el_list_take_bin(const el_list *list, uint16_t band)
 {
     const uint16_t last_name = list->bins[band];
     if (last_name == 0) {

@@ -10,6 +10,11 @@
  * when they are set up, by the same function from the same numbers. Three times as many triangles fit, which saves
  * passes, and each pass looks at every vertex of the scene.
  *
+ * Where several cores draw, each draws groups of neighbouring bands, and a triangle that reaches into further groups has a
+ * share in each: 8 bytes behind its record, in the bin of the group's first band. So a group has all that is drawn into it
+ * in its own bins, and no core writes what another one reads: records are written no more, but for the `next` of what is
+ * in a bin.
+ *
  * Records are named by their offset in units of 8 bytes, so a later record has a larger name: comparing names compares
  * the order of submission, which decides ties in depth. A bin is a circular list, named by its last record, so that
  * appending and taking from the front are both one step. */
@@ -30,6 +35,8 @@ extern "C" {
 
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
 #define EL_LIST_BYTES(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
+
+enum { EL_GROUP_BANDS = 2 }; /* as many as a core has buffers for */
 
 typedef enum el_record_kind {
     EL_RECORD_THIN,        /* the first EL_THIN_BYTES of an el_record */
@@ -85,11 +92,11 @@ typedef struct el_point {
 
 typedef struct el_record {
     uint16_t next;  /* in its bin; 0: none */
-    uint16_t run;   /* its el_run */
-    uint16_t index; /* of the mesh's triangle */
+    uint16_t run;   /* its el_run; 0: this is a share, of EL_RECORD_THIN's size */
+    uint16_t index; /* of the mesh's triangle; of a share: the name of its record */
     union {
         el_point points[3];
-        int16_t row; /* of a thin one: the first row with a pixel centre inside */
+        int16_t row; /* of a thin one: the first row with a pixel centre inside; of a share: its group's first row */
     } at;
 } el_record;
 
@@ -114,7 +121,9 @@ typedef struct el_record_clipped {
 typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
+    uint16_t band_lines;
     bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    bool is_shared;     /* triangles have shares */
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */
@@ -177,11 +186,23 @@ static inline uint32_t el_list_band_of(const el_list *list, int32_t row)
     return (uint32_t)row * list->bands_per_row >> list->band_shift;
 }
 
+/* What is to be drawn under the name of a record or of a share. */
+static inline const el_record *el_list_record(const el_list *list, uint16_t name)
+{
+    const el_record *const record = (const el_record *)el_list_at(list, name);
+    return EL_WITH_WORKERS && record->run == 0 ? (const el_record *)el_list_at(list, record->index) : record;
+}
+
+static inline uint16_t el_list_name(const el_list *list, const el_record *record)
+{
+    return (uint16_t)((uint32_t)((const uint8_t *)record - list->base) / EL_LIST_UNIT);
+}
+
 /* Puts a record into the bin of the band that has screen row `row`, as its last. */
 static inline void el_list_put(const el_list *list, el_record *record, int32_t row)
 {
     uint16_t *const bin = &list->bins[el_list_band_of(list, row)];
-    const uint16_t name = (uint16_t)((uint32_t)((const uint8_t *)record - list->base) / EL_LIST_UNIT);
+    const uint16_t name = el_list_name(list, record);
     if (*bin == 0) {
         record->next = name;
     } else {
@@ -192,12 +213,27 @@ static inline void el_list_put(const el_list *list, el_record *record, int32_t r
     *bin = name;
 }
 
-/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
- * Its run and next are set; the caller fills in the rest. NULL when the list is full. Where a caller has a copy of the
- * list, for as long as nobody else looks at it, all that this changes but the records stays in registers. */
-static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, int32_t row)
+/* Bytes of the shares of a triangle with rows [row, row_end) in the pass. */
+static inline uint32_t el_list_share_bytes(const el_list *list, int32_t row, int32_t row_end)
 {
-    if (bytes > list->end - list->used) {
+    if (!EL_WITH_WORKERS || !list->is_shared) {
+        return 0;
+    }
+    const uint32_t groups =
+        el_list_band_of(list, row_end - 1) / EL_GROUP_BANDS - el_list_band_of(list, row) / EL_GROUP_BANDS;
+    return groups * el_list_record_bytes(EL_RECORD_THIN);
+}
+
+/* Puts a record's shares into the list's memory from byte `at` on, and into their bins. Returns where they end. */
+uint32_t el_list_share(const el_list *list, const el_record *record, uint32_t at, int32_t row, int32_t row_end);
+
+/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
+ * Its run and next are set; the caller fills in the rest, and sees to its shares. NULL when the list has
+ * no room for it and for `more` bytes. Where a caller has a copy of the list, for as long as nobody else looks at it, all that this changes
+ * but the records stays in registers. */
+static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, uint32_t more, int32_t row)
+{
+    if (bytes + more > list->end - list->used) {
         return NULL;
     }
     el_record *const record = (el_record *)(void *)(list->base + list->used);
@@ -207,8 +243,9 @@ static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, int3
     return record;
 }
 
-/* The same for any kind: opens a run if the last one is of another kind, and for `draw` if the last draw call has ended. */
-el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row);
+/* The same for any kind, with its shares, for a triangle with rows [row, row_end) in the pass: opens a run if the last one
+ * is of another kind, and for `draw` if the last draw call has ended. */
+el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row, int32_t row_end);
 
 /* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
  * the bin of row_begin. The run that takes records stays open. */
@@ -219,7 +256,7 @@ void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end);
 void el_list_make_thin(el_list *list, int32_t row_begin);
 
 /* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */
-uint16_t el_list_take_bin(el_list *list, uint16_t band);
+uint16_t el_list_take_bin(const el_list *list, uint16_t band);
 
 /* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
