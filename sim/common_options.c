@@ -46,6 +46,12 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
         }
         options->machine.arena_bytes = (size_t)value;
         return true;
+    case EL_OPTION_THREADS:
+        if (!el_option_integer("--threads", text, 1, EL_MAX_WORKERS, &value)) {
+            return false;
+        }
+        options->machine.threads = (unsigned)value;
+        return true;
     case EL_OPTION_FRAMES:
         return el_option_integer("--frames", text, 1, INT_MAX, &options->frames);
     case EL_OPTION_PANEL:

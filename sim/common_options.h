@@ -18,6 +18,7 @@ enum {
     EL_OPTION_UV_ERROR,
     EL_OPTION_PANEL,
     EL_OPTION_ROTATION,
+    EL_OPTION_THREADS,
     EL_OPTION_OWN
 };
 
@@ -27,6 +28,7 @@ enum {
         {"band", required_argument, NULL, EL_OPTION_BAND}, {"arena", required_argument, NULL, EL_OPTION_ARENA},        \
         {"frames", required_argument, NULL, EL_OPTION_FRAMES}, {"panel", required_argument, NULL, EL_OPTION_PANEL},    \
         {"rotation", required_argument, NULL, EL_OPTION_ROTATION},                                                     \
+        {"threads", required_argument, NULL, EL_OPTION_THREADS},                                                       \
     {                                                                                                                  \
         "uv-error", required_argument, NULL, EL_OPTION_UV_ERROR                                                        \
     }

@@ -83,6 +83,7 @@ static bool open_renderer(el_machine *machine)
         .uv_error_log2 = config->uv_error_log2,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
+        .workers = machine->threads != NULL ? el_threads_workers(machine->threads) : NULL,
         .sinks = {&machine->display.sink, &machine->depth_sink, config->extra_sink},
     };
     const el_status status = el_init(&machine->renderer, &renderer_config);
@@ -90,7 +91,8 @@ static bool open_renderer(el_machine *machine)
         const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
         el_report("an arena of %zu bytes is too small: %u x %u in bands of %u lines needs %u at least",
                   machine->arena_bytes, config->width, config->height, config->band_lines,
-                  EL_MIN_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines));
+                  EL_MIN_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines) +
+                      EL_WORKERS_BYTES((unsigned)config->width, band_lines, config->threads));
     } else if (status != EL_OK) {
         el_report("%s", el_machine_message(status));
     }
@@ -111,7 +113,14 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
     machine->arena_bytes = config->arena_bytes != 0
                                ? config->arena_bytes
                                : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
-                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS);
+                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
+                                     EL_WORKERS_BYTES((unsigned)config->width, band_lines, config->threads);
+    if (config->threads > 1) {
+        machine->threads = el_threads_open(config->threads);
+        if (machine->threads == NULL) {
+            return false;
+        }
+    }
     machine->arena = malloc(machine->arena_bytes);
     machine->glass = calloc((size_t)machine->display.width * machine->display.height, sizeof machine->glass[0]);
     machine->picture = calloc((size_t)machine->picture_width * machine->picture_height, sizeof machine->picture[0]);
@@ -126,6 +135,7 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
 
 void el_machine_close(el_machine *machine)
 {
+    el_threads_close(machine->threads);
     free(machine->arena);
     free(machine->picture);
     free(machine->depth);

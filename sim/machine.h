@@ -8,6 +8,7 @@
 
 #include "display.h"
 #include "edgeline.h"
+#include "threads.h"
 
 typedef struct el_machine_config {
     uint16_t width; /* of the frames */
@@ -15,6 +16,7 @@ typedef struct el_machine_config {
     uint16_t band_lines;
     uint16_t background;       /* RGB565 */
     uint8_t uv_error_log2;     /* as el_config has it */
+    unsigned threads;          /* that draw; 0 is 1 */
     size_t arena_bytes;        /* 0: what EL_MEMORY_BYTES says for EL_MACHINE_VERTICES and EL_MACHINE_TRIANGLES */
     const el_sink *extra_sink; /* beside the panel and the depth; NULL: none */
     const char *panel;         /* as in lcd/lcd.h, with glass as large as the frames or larger; NULL: see below */
@@ -27,6 +29,7 @@ enum { EL_MACHINE_VERTICES = 2000, EL_MACHINE_TRIANGLES = 3000, EL_MACHINE_DRAWS
 typedef struct el_machine {
     el_machine_config config;
     el_renderer renderer;
+    el_threads *threads; /* NULL: one */
     void *arena;
     size_t arena_bytes;
     el_display display;

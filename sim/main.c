@@ -15,7 +15,7 @@ static const struct {
     {"list", el_command_list, "[views]"},
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm] [--size WxH] [--band N] [--arena BYTES]\n"
-     "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N]\n"
+     "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N] [--threads N]\n"
      "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
@@ -24,7 +24,7 @@ static const struct {
      "               with a scene: [--yaw N] [--pitch N] [--zoom N] [--pan-x N] [--pan-y N], as INPUT in WIRE.md has\n"
      "               them, and [--shading flat|gouraud|textured]: without textures and vertex colours, or one of them"},
     {"stream", el_command_stream,
-     "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N]\n"
+     "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N] [--threads N]\n"
      "               [--panel NAME [--rotation DEGREES]]\n"
      "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE [--max-baud RATE]]\n"
      "               --pty, --tcp: prints the port's name, waits for a host, takes its INPUT; hosts may come and go\n"

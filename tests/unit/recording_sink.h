@@ -11,7 +11,7 @@
 #include "edgeline.h"
 #include "unity.h"
 
-enum { RECORD_MAX_PIXELS = 320 * 240, RECORD_MAX_BAND = 64 * 64 };
+enum { RECORD_MAX_PIXELS = 320 * 240, RECORD_MAX_BAND = 64 * 64, RECORD_MAX_HELD = 2 * EL_MAX_WORKERS };
 
 typedef struct recording {
     bool defers; /* keeps each band until the renderer waits for it, or until finish_recording */
@@ -29,7 +29,7 @@ typedef struct recording {
         unsigned slot;
         uint16_t y, lines;
         uint32_t crc;
-    } held[2]; /* oldest first */
+    } held[RECORD_MAX_HELD]; /* oldest first */
     unsigned held_count;
 } recording;
 
@@ -57,8 +57,8 @@ static inline void release_oldest(recording *r)
     TEST_ASSERT_EQUAL_UINT16_MESSAGE(r->held[0].lines, band->lines, "a held band was cut");
     TEST_ASSERT_EQUAL_HEX32_MESSAGE(r->held[0].crc, band_crc(band), "the pixels of a held band changed");
     el_band_release(r->held[0].band, r->held[0].slot);
-    r->held[0] = r->held[1];
     r->held_count--;
+    memmove(r->held, r->held + 1, r->held_count * sizeof r->held[0]);
 }
 
 static inline void record_rows(void *context, el_band *band, unsigned slot)
@@ -80,7 +80,7 @@ static inline void record_rows(void *context, el_band *band, unsigned slot)
         el_band_release(band, slot);
         return;
     }
-    TEST_ASSERT_LESS_THAN_UINT(2, r->held_count);
+    TEST_ASSERT_LESS_THAN_UINT(RECORD_MAX_HELD, r->held_count);
     r->held[r->held_count].band = band;
     r->held[r->held_count].slot = slot;
     r->held[r->held_count].y = band->y;

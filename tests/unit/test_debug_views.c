@@ -200,7 +200,7 @@ static void test_depth_never_gets_lighter_with_distance(void)
     static const uint32_t planes_q16[][2] = {{16, 1 << 30}, {65536, 73728}, {65536, 20 * 65536}, {16, 18}};
     static uint16_t depth[DEPTHS];
     static uint16_t pixels[DEPTHS];
-    const el_band line = {.pixels = pixels, .depth = depth, .width = DEPTHS, .lines = 1};
+    const el_painter painter = {.bands = {{.pixels = pixels, .depth = depth, .width = DEPTHS, .lines = 1}}};
     for (unsigned i = 0; i < DEPTHS; i++) {
         depth[i] = (uint16_t)(i * 62U);
     }
@@ -209,7 +209,7 @@ static void test_depth_never_gets_lighter_with_distance(void)
             .fov_y = EL_DEGREES(60, 1), .near_q16 = planes_q16[k][0], .far_q16 = planes_q16[k][1]};
         renderer.config.view = EL_DEBUG_DEPTH;
         TEST_ASSERT_EQUAL_INT(EL_OK, el_view_make(&renderer.view, &camera, WIDTH, HEIGHT));
-        el_debug_finish_band(&renderer, &line);
+        el_debug_finish_band(&renderer, &painter);
         TEST_ASSERT_EQUAL_HEX16(0xFFFF, pixels[0]);
         TEST_ASSERT_EQUAL_HEX16(el_rgb565(32, 32, 32), pixels[DEPTHS - 1]);
         for (unsigned i = 1; i < DEPTHS; i++) {

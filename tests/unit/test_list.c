@@ -43,7 +43,7 @@ static el_draw_state draw_of(unsigned mesh)
 static el_record *append(unsigned mesh, el_record_kind kind, int32_t row, int32_t from, uint16_t index)
 {
     const el_draw_state draw = draw_of(mesh);
-    el_record *const record = el_list_append(&list, &draw, kind, row > from ? row : from);
+    el_record *const record = el_list_append(&list, &draw, kind, row > from ? row : from, (row > from ? row : from) + 1);
     if (record != NULL) {
         const el_coordinate y = (el_coordinate)(row * EL_SUBPIXELS + EL_SUBPIXELS / 2);
         record->index = index;
@@ -106,6 +106,18 @@ static void test_a_row_belongs_to_its_band(void)
     expect_bin(BINS - 1, 1, (const uint16_t[]){4});
 }
 
+/* Every band's first and last row, for every height that bands may have. */
+static void test_a_product_finds_every_band(void)
+{
+    for (uint16_t lines = 1; lines <= EL_MAX_HEIGHT; lines++) {
+        el_list_init(&list, memory, BYTES, bins, 0, lines);
+        for (int32_t row = 0, band = 0; row < EL_MAX_HEIGHT; row += lines, band++) {
+            TEST_ASSERT_EQUAL_INT32(band, el_list_band_of(&list, row));
+            TEST_ASSERT_EQUAL_INT32(band, el_list_band_of(&list, row + lines - 1));
+        }
+    }
+}
+
 static void test_records_of_one_draw_share_a_run(void)
 {
     const el_record *const a = append(1, EL_RECORD_PLAIN, 0, 0, 0);
@@ -113,9 +125,10 @@ static void test_records_of_one_draw_share_a_run(void)
     TEST_ASSERT_EQUAL_UINT16(a->run, b->run);
     const el_run *const run = el_list_at(&list, a->run);
     TEST_ASSERT_EQUAL_PTR(&meshes[1], el_list_draw(&list, b)->mesh);
-    TEST_ASSERT_EQUAL_UINT16(2, run->count);
     TEST_ASSERT_EQUAL_UINT8(EL_RECORD_PLAIN, run->kind);
     TEST_ASSERT_EQUAL_UINT32(EL_LIST_UNIT + DRAW_BYTES + 2 * ((sizeof(el_record) + 7) / 8 * 8), list.used);
+    el_list_end_draw(&list);
+    TEST_ASSERT_EQUAL_UINT32(list.used, run->end * EL_LIST_UNIT);
 }
 
 static void test_another_kind_or_an_end_opens_a_run(void)
@@ -298,6 +311,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_bins_keep_the_order);
     RUN_TEST(test_a_row_belongs_to_its_band);
+    RUN_TEST(test_a_product_finds_every_band);
     RUN_TEST(test_records_of_one_draw_share_a_run);
     RUN_TEST(test_another_kind_or_an_end_opens_a_run);
     RUN_TEST(test_a_full_list);

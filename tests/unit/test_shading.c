@@ -47,7 +47,7 @@ void tearDown(void)
 /* Puts a triangle on the list, its front to the viewer unless `back`, and gathers it. */
 static void gather(el_record_kind kind, bool back)
 {
-    el_record *const record = el_list_append(&list, &draw, kind, 0);
+    el_record *const record = el_list_append(&list, &draw, kind, 0, 1);
     TEST_ASSERT_NOT_NULL(record);
     record->index = 0;
     record->at.points[0] = (el_point){.x = 0, .y = 0, .z = 11};

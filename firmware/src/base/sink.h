@@ -28,16 +28,17 @@ typedef struct el_band {
                                             so an interrupt may clear it without a lock */
 } el_band;
 
-/* Gives `band` back. `slot` is the number that `rows` was called with. Safe in interrupts. */
+/* Gives `band` back. `slot` is the number that `rows` was called with. Safe in interrupts, and on any core: who finds the
+ * band free may write it. */
 static inline void el_band_release(el_band *band, unsigned slot)
 {
-    band->held[slot] = 0;
+    __atomic_store_n(&band->held[slot], 0, __ATOMIC_RELEASE);
 }
 
 static inline bool el_band_is_free(const el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        if (band->held[i] != 0) {
+        if (__atomic_load_n(&band->held[i], __ATOMIC_ACQUIRE) != 0) {
             return false;
         }
     }

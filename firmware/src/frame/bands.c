@@ -4,72 +4,77 @@
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
 
-/* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
- * has left of its memory, and their records form one list in the order of submission. Where there is no room for a
- * state, the triangle is set up anew in every band: slower, with the same pixels. */
-typedef struct states {
-    uint32_t used;                              /* end of the memory handed out so far, bytes from the list's base */
-    uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; each begins with the next one's name; 0: none */
-} states;
+/* What is carried, see painter.h. */
+typedef struct carried_state {
+    uint16_t next;
+    uint16_t order; /* name of the record, or of its share in a group */
+    el_triangle triangle;
+} carried_state;
 
-static uint16_t take_state(states *pool, const el_list *list, el_shading shading)
+enum { NO_ORDER = 0xFFFF }; /* after all names: a list ends before that unit */
+
+static uint16_t take_state(el_carrying *c, const el_list *list, el_shading shading)
 {
-    const uint16_t reused = pool->given_back[shading];
+    const uint16_t reused = c->given_back[shading];
     if (reused != 0) {
-        pool->given_back[shading] = *(const uint16_t *)el_list_at(list, reused);
+        c->given_back[shading] = *(const uint16_t *)el_list_at(list, reused);
         return reused;
     }
-    const uint32_t bytes = EL_ROUND_UP_8(el_triangle_bytes(shading));
-    if (bytes > list->end || pool->used > list->end - bytes) {
+    const uint32_t bytes = EL_LIST_BYTES(offsetof(carried_state, triangle) + el_triangle_bytes(shading));
+    if (bytes > c->end - c->used) {
         return 0;
     }
-    const uint16_t name = (uint16_t)(pool->used / EL_LIST_UNIT);
-    pool->used += bytes;
+    const uint16_t name = (uint16_t)(c->used / EL_LIST_UNIT);
+    c->used += bytes;
     return name;
 }
 
-static void give_state(states *pool, const el_list *list, el_shading shading, uint16_t name)
+static void give_state(el_carrying *c, const el_list *list, el_shading shading, uint16_t name)
 {
-    *(uint16_t *)el_list_at(list, name) = pool->given_back[shading];
-    pool->given_back[shading] = name;
+    *(uint16_t *)el_list_at(list, name) = c->given_back[shading];
+    c->given_back[shading] = name;
 }
 
-static void wait_for(const el_renderer *renderer, const el_band *band)
+/* The place of something carried in the order of submission. */
+static inline uint16_t order_of(const el_carrying *c, const el_list *list, uint16_t name)
 {
-    while (!el_band_is_free(band)) {
-        for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-            const el_sink *const sink = renderer->config.sinks[i];
-            if (sink != NULL && sink->wait != NULL) {
-                sink->wait(sink->context);
-            }
+    if (name == 0) {
+        return NO_ORDER;
+    }
+    return name < c->first_state ? name : ((const carried_state *)el_list_at(list, name))->order;
+}
+
+void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
+{
+    for (unsigned i = 0; i < EL_MAX_SINKS && !el_band_is_free(band); i++) {
+        const el_sink *const sink = renderer->config.sinks[i];
+        if (sink != NULL && sink->wait != NULL) {
+            sink->wait(sink->context);
         }
     }
 }
 
-/* Makes `band` of the screen the one that is drawn into. */
-static el_target open_band(el_renderer *renderer, uint16_t band)
+/* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
+static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
 {
     const el_config *const config = &renderer->config;
-    el_band *const buffer = &renderer->bands[renderer->current];
+    el_band *const buffer = &painter->bands[painter->current];
+    uint16_t *const depth = painter->depth[painter->current];
     const int32_t y = band * config->band_lines;
     const int32_t y_end = el_min_i32(y + config->band_lines, config->height);
-    if (!renderer->band_is_open) {
-        wait_for(renderer, buffer);
+    if (!painter->band_is_open) {
         buffer->y = (uint16_t)y;
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
-        el_fill_u16(buffer->pixels, el_debug_begin_band(renderer), pixels);
-        el_fill_u16(renderer->depth, 0xFFFF, pixels);
-        renderer->band_is_open = 1;
+        el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
+        el_fill_u16(depth, 0xFFFF, pixels);
+        painter->band_is_open = 1;
     }
-    return (el_target){
-        .colour = buffer->pixels, .depth = renderer->depth, .width = config->width, .y = y, .y_end = y_end};
+    return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
-static void hand_over(el_renderer *renderer)
+void el_bands_hand_over(el_renderer *renderer, el_band *band)
 {
-    el_band *const band = &renderer->bands[renderer->current];
-    el_debug_finish_band(renderer, band);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         band->held[i] = renderer->config.sinks[i] != NULL;
     }
@@ -80,84 +85,101 @@ static void hand_over(el_renderer *renderer)
         }
     }
     el_count(&renderer->stats.bands, 1);
-    renderer->current ^= 1U;
-    renderer->band_is_open = 0;
 }
 
-/* Draws one record's triangle into the target. Returns whether it reaches beyond. A triangle that does is set up where its
- * state will stay. */
-static bool draw_record(el_renderer *renderer, el_record *record, const el_target *target, states *pool)
+/* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
+ * stay. Returns the name under which it is carried on; 0 when it is not. */
+static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
 {
-    el_list *const list = &renderer->list;
+    const el_list *const list = &renderer->list;
+    const el_record *const record = el_list_record(list, name);
+    el_carrying *const c = &painter->carrying;
     el_triangle local;
     el_triangle *triangle = &local;
-    uint16_t state = 0;
-    if (EL_WITH_CARRY && record->index == EL_INDEX_ACTIVE) {
-        state = record->at.state;
-        triangle = el_list_at(list, state);
-    } else {
-        el_corner corners[3];
-        el_surface surface;
-        el_count(&renderer->stats.vertices, el_list_gather(list, record, corners, &surface));
-        surface.uv_error_log2 = renderer->config.uv_error_log2;
-        el_debug_surface(renderer, record, &surface);
-        el_count(&renderer->stats.setups, 1);
-        const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
-        if (EL_WITH_CARRY && el_first_centre(y_last) > target->y_end) {
-            state = take_state(pool, list, surface.shading);
-            triangle = state != 0 ? el_list_at(list, state) : &local;
-        }
-        if (!el_triangle_setup(triangle, corners, &surface, target->y)) {
-            if (state != 0) {
-                give_state(pool, list, surface.shading, state);
-            }
-            return false;
-        }
-        if (state != 0) {
-            record->index = EL_INDEX_ACTIVE;
-            record->at.state = state;
+    uint16_t state_name = 0;
+    el_corner corners[3];
+    el_surface surface;
+    el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
+    surface.uv_error_log2 = renderer->config.uv_error_log2;
+    el_debug_surface(renderer, record, &surface);
+    el_count(&painter->stats->setups, 1);
+    const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+    const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
+    if (EL_WITH_CARRY && reaches_on) {
+        state_name = take_state(c, list, surface.shading);
+        if (state_name != 0) {
+            carried_state *const state = el_list_at(list, state_name);
+            state->order = name;
+            triangle = &state->triangle;
         }
     }
-    el_triangle_draw(triangle, target, &renderer->stats);
-    const bool reaches_on = triangle->y_end > target->y_end;
-    if (!reaches_on && state != 0) {
-        give_state(pool, list, triangle->surface.shading, state);
+    if (!el_triangle_setup(triangle, corners, &surface, target->y)) {
+        if (state_name != 0) {
+            give_state(c, list, surface.shading, state_name);
+        }
+        return 0;
     }
-    return reaches_on;
+    el_triangle_draw(triangle, target, painter->stats);
+    if (!reaches_on) {
+        return 0;
+    }
+    return state_name != 0 ? state_name : name;
 }
 
-/* Draws the band's own triangles and those carried on from above, merged in the order of submission. Returns the list
- * of those that reach on. */
-static uint16_t draw_band(el_renderer *renderer, uint16_t band, const el_target *target, uint16_t carried, states *pool)
+/* Draws what is carried on under that name. Returns the name under which it is carried on further; 0 when it is not. */
+static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
 {
-    el_list *const list = &renderer->list;
-    uint16_t fresh = el_list_take_bin(list, band);
-    uint16_t first = 0;
-    uint16_t last = 0;
-    while (fresh != 0 || carried != 0) {
-        uint16_t name;
-        el_record *record;
-        if (carried == 0 || (fresh != 0 && fresh < carried)) {
-            name = fresh;
-            record = el_list_at(list, name);
-            fresh = record->next;
-        } else {
-            name = carried;
-            record = el_list_at(list, name);
-            carried = record->next;
-        }
-        if (!draw_record(renderer, record, target, pool)) {
-            continue;
-        }
-        record->next = 0;
-        if (last == 0) {
-            first = name;
-        } else {
-            ((el_record *)el_list_at(list, last))->next = name;
-        }
-        last = name;
+    if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
+        return draw_record(painter, renderer, name, target);
     }
-    return first;
+    el_triangle *const triangle = &((carried_state *)el_list_at(&renderer->list, name))->triangle;
+    el_triangle_draw(triangle, target, painter->stats);
+    if (painter->goes_on && triangle->y_end > target->y_end) {
+        return name;
+    }
+    give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
+    return 0;
+}
+
+void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats)
+{
+    painter->stats = stats;
+    painter->carrying =
+        (el_carrying){.first_state = (uint16_t)(list->used / EL_LIST_UNIT), .begin = begin, .used = begin, .end = end};
+}
+
+/* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
+ * the new chain. */
+void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
+{
+    const el_list *const list = &renderer->list;
+    el_carrying *const c = &painter->carrying;
+    const el_target target = open_band(painter, renderer, band);
+    painter->goes_on = goes_on;
+    uint16_t fresh = el_list_take_bin(list, band);
+    uint16_t carried = c->first;
+    uint16_t carried_order = order_of(c, list, carried);
+    uint16_t *last = &c->first;
+    for (;;) {
+        uint16_t name;
+        if ((fresh == 0 ? NO_ORDER : fresh) < carried_order) {
+            const uint16_t next = *(const uint16_t *)el_list_at(list, fresh);
+            name = draw_record(painter, renderer, fresh, &target);
+            fresh = next;
+        } else if (carried != 0) {
+            const uint16_t next = *(const uint16_t *)el_list_at(list, carried);
+            name = draw_carried(painter, renderer, carried, &target);
+            carried = next;
+            carried_order = order_of(c, list, carried);
+        } else {
+            break;
+        }
+        if (name != 0) {
+            *last = name;
+            last = el_list_at(list, name);
+        }
+    }
+    *last = 0;
 }
 
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
@@ -170,17 +192,22 @@ void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
 
 static void draw_pass(el_renderer *renderer, bool hand_over_bands)
 {
-    el_list *const list = &renderer->list;
-    states pool = {.used = list->used};
-    uint16_t carried = 0;
+    el_painter *const painter = &renderer->painter;
+    el_painter_begin(painter, &renderer->list, renderer->list.used, renderer->list.end, &renderer->stats);
     for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
-        const el_target target = open_band(renderer, band);
-        carried = draw_band(renderer, band, &target, carried, &pool);
+        el_band *const buffer = &painter->bands[painter->current];
+        while (!painter->band_is_open && !el_band_is_free(buffer)) {
+            el_bands_wait_for_sinks(renderer, buffer);
+        }
+        el_painter_draw(painter, renderer, band, band + 1 < renderer->pass_end);
         if (hand_over_bands) {
-            hand_over(renderer);
+            el_debug_finish_band(renderer, painter);
+            el_bands_hand_over(renderer, buffer);
+            painter->current ^= 1U;
+            painter->band_is_open = 0;
         }
     }
-    el_bands_note_use(renderer, pool.used);
+    el_bands_note_use(renderer, painter->carrying.used);
 }
 
 void el_bands_flush(el_renderer *renderer)
@@ -192,6 +219,14 @@ void el_bands_flush(el_renderer *renderer)
 
 void el_bands_finish(el_renderer *renderer)
 {
+#if EL_WITH_WORKERS
+    if (renderer->workers > 1) {
+        el_workers_draw_pass(renderer);
+    } else {
+        draw_pass(renderer, true);
+    }
+#else
     draw_pass(renderer, true);
+#endif
     el_list_clear(&renderer->list);
 }

@@ -4,6 +4,12 @@
 
 #include "frame/renderer.h"
 
+/* The painter of core `worker`, 0 being the caller's. */
+static inline el_painter *el_renderer_painter(el_renderer *renderer, unsigned worker)
+{
+    return worker == 0 ? &renderer->painter : &renderer->others[worker - 1U].painter;
+}
+
 /* Counts a use of `bytes` of the list's memory in the peak. */
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes);
 
@@ -12,5 +18,25 @@ void el_bands_flush(el_renderer *renderer);
 
 /* Draws the pass' bands and hands them over. */
 void el_bands_finish(el_renderer *renderer);
+
+/* For frame/workers.c: */
+
+/* Lets `painter` carry what it may in bytes [begin, end) of the list's memory, and count in `stats`. */
+void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats);
+
+/* Draws the triangles of `band` and those carried on from above into the painter's current buffer, which is free. Carries
+ * on what reaches beyond, where `goes_on`. */
+void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on);
+
+/* Gives a complete band to the sinks. */
+void el_bands_hand_over(el_renderer *renderer, el_band *band);
+
+/* Lets the sinks go on, or sleep, while `band` is theirs. */
+void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band);
+
+#if EL_WITH_WORKERS
+/* el_bands_finish with several workers. Empties no list. */
+void el_workers_draw_pass(el_renderer *renderer);
+#endif
 
 #endif

@@ -19,14 +19,14 @@ static inline void el_debug_begin_pass(el_renderer *renderer)
  * False: the view shows nothing of it. */
 bool el_debug_begin_draw(const el_renderer *renderer, el_draw_state *draw, el_shading *shading);
 
-/* What a band is cleared to; it is opened. */
-uint16_t el_debug_begin_band(el_renderer *renderer);
+/* What the painter's current band is cleared to; it is opened. */
+uint16_t el_debug_begin_band(const el_renderer *renderer, el_painter *painter);
 
 /* A record that is not yet set up has got its surface. */
 void el_debug_surface(const el_renderer *renderer, const el_record *record, el_surface *surface);
 
-/* All triangles are drawn into the band: makes its pixels what the view shows. */
-void el_debug_finish_band(const el_renderer *renderer, const el_band *band);
+/* All triangles are drawn into the current band: makes its pixels what the view shows. */
+void el_debug_finish_band(const el_renderer *renderer, const el_painter *painter);
 
 #else
 
@@ -43,8 +43,9 @@ static inline bool el_debug_begin_draw(const el_renderer *renderer, const el_dra
     return true;
 }
 
-static inline uint16_t el_debug_begin_band(const el_renderer *renderer)
+static inline uint16_t el_debug_begin_band(const el_renderer *renderer, const el_painter *painter)
 {
+    (void)painter;
     return renderer->config.background;
 }
 
@@ -55,10 +56,10 @@ static inline void el_debug_surface(const el_renderer *renderer, const el_record
     (void)surface;
 }
 
-static inline void el_debug_finish_band(const el_renderer *renderer, const el_band *band)
+static inline void el_debug_finish_band(const el_renderer *renderer, const el_painter *painter)
 {
     (void)renderer;
-    (void)band;
+    (void)painter;
 }
 
 #endif

@@ -50,10 +50,10 @@ bool el_debug_begin_draw(const el_renderer *renderer, el_draw_state *draw, el_sh
     return has_depth || (view != EL_DEBUG_DEPTH && view != EL_DEBUG_REJECTED);
 }
 
-uint16_t el_debug_begin_band(el_renderer *renderer)
+uint16_t el_debug_begin_band(const el_renderer *renderer, el_painter *painter)
 {
     const unsigned view = renderer->config.view;
-    renderer->band_work = work_of(&renderer->stats);
+    painter->band_work = work_of(painter->stats);
     return counts(view) || view == EL_DEBUG_DEPTH ? 0 : renderer->config.background;
 }
 
@@ -154,8 +154,9 @@ static void show_work(uint32_t work, const el_band *band)
     }
 }
 
-void el_debug_finish_band(const el_renderer *renderer, const el_band *band)
+void el_debug_finish_band(const el_renderer *renderer, const el_painter *painter)
 {
+    const el_band *const band = &painter->bands[painter->current];
     switch (renderer->config.view) {
     case EL_DEBUG_OVERDRAW:
     case EL_DEBUG_REJECTED:
@@ -165,7 +166,7 @@ void el_debug_finish_band(const el_renderer *renderer, const el_band *band)
         show_depth(&renderer->view, band);
         break;
     case EL_DEBUG_BANDS:
-        show_work(work_of(&renderer->stats) - renderer->band_work, band);
+        show_work(work_of(painter->stats) - painter->band_work, band);
         break;
     default:
         break;

@@ -10,6 +10,7 @@ _Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_
 _Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
                "the size that EL_MEMORY_BYTES counts with");
 _Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_MEMORY_BYTES counts with");
+_Static_assert(sizeof(el_worker) <= EL_PAINTER_BYTES, "the size that EL_WORKERS_BYTES counts with");
 _Static_assert(sizeof(el_run) + EL_DRAW_STATE_BYTES <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
 el_status el_init(el_renderer *renderer, const el_config *config)
@@ -24,7 +25,13 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     const uint32_t width = config->width;
     const uint32_t lines = config->band_lines;
-    if (config->memory_bytes < EL_MIN_MEMORY_BYTES(width, config->height, lines) || config->memory_bytes > INT32_MAX) {
+    if (config->workers != NULL &&
+        (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
+        return EL_ERROR_SIZE;
+    }
+    const uint32_t workers = config->workers != NULL ? config->workers->count : 1U;
+    const uint32_t least = EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, lines, workers);
+    if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {
         return EL_ERROR_MEMORY;
     }
     memset(renderer, 0, sizeof *renderer);
@@ -33,27 +40,41 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
     renderer->pass_bands = renderer->band_count;
 
-    /* colour band, colour band, bins, list ..., depth band: the vertices of a draw lie at the end of the list's memory
-     * and reach over the depth band while no band is open. Names of records do not reach beyond EL_LIST_MAX_BYTES; what
-     * is more stays unused. */
+    renderer->workers = (uint8_t)workers;
+
+    /* Two colour bands of each core, bins, the other cores' painters, list ..., depth bands: the vertices of a draw lie at
+     * the end of the list's memory and reach over the depth bands while no band is open. Names of records do not reach
+     * beyond EL_LIST_MAX_BYTES; what is more stays unused. */
     const uint32_t skipped = (uint32_t)(-(uintptr_t)config->memory & 7U);
     uint8_t *const memory = (uint8_t *)config->memory + skipped;
     const uint32_t bytes = ((uint32_t)config->memory_bytes - skipped) / 8 * 8;
     const uint32_t colour_bytes = EL_COLOUR_BAND_BYTES(width, lines);
-    const uint32_t depth_bytes = EL_DEPTH_BAND_BYTES(width, lines);
-    const uint32_t bins_at = 2 * colour_bytes;
-    const uint32_t list_at = bins_at + EL_BIN_BYTES(config->height, lines);
-    const uint32_t left = bytes - list_at - depth_bytes;
+    const uint32_t one_depth = EL_DEPTH_BAND_BYTES(width, lines);
+    const uint32_t bins_at = 2 * workers * colour_bytes;
+    const uint32_t others_at = bins_at + EL_BIN_BYTES(config->height, lines);
+    const uint32_t list_at = others_at + (workers - 1U) * EL_PAINTER_BYTES;
+    renderer->depth_bytes = workers > 1 ? 2 * workers * one_depth : one_depth;
+    const uint32_t left = bytes - list_at - renderer->depth_bytes;
     renderer->list_bytes = left < EL_LIST_MAX_BYTES ? left : EL_LIST_MAX_BYTES;
-    renderer->fixed_bytes = list_at + depth_bytes;
-    renderer->depth = (uint16_t *)(void *)(memory + list_at + renderer->list_bytes);
-    for (unsigned i = 0; i < 2; i++) {
-        renderer->bands[i].pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
-        renderer->bands[i].width = config->width;
-        renderer->bands[i].depth = renderer->depth;
+    renderer->fixed_bytes = list_at + renderer->depth_bytes;
+    uint8_t *const depth = memory + list_at + renderer->list_bytes;
+    if (EL_WITH_WORKERS && workers > 1) {
+        renderer->others = (el_worker *)(void *)(memory + others_at);
+        memset(renderer->others, 0, (workers - 1U) * sizeof renderer->others[0]);
+    }
+    for (unsigned i = 0; i < 2 * workers; i++) {
+        el_painter *const painter = el_renderer_painter(renderer, i / 2);
+        el_band *const band = &painter->bands[i % 2];
+        band->width = config->width;
+        band->pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
+        painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
+        band->depth = painter->depth[i % 2];
     }
     el_list_init(&renderer->list, memory + list_at, renderer->list_bytes, (uint16_t *)(void *)(memory + bins_at),
                  renderer->band_count, config->band_lines);
+#if EL_WITH_WORKERS
+    renderer->list.is_shared = workers > 1;
+#endif
     return EL_OK;
 }
 

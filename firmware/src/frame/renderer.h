@@ -21,6 +21,8 @@
 #include "base/stats.h"
 #include "base/status.h"
 #include "frame/debug_view.h"
+#include "frame/painter.h"
+#include "frame/workers.h"
 #include "geometry/mesh.h"
 #include "geometry/pose.h"
 #include "geometry/transform.h"
@@ -46,7 +48,9 @@ enum {
     /* Room for a draw call, a cut triangle and a few vertices at a time. */
     EL_MIN_LIST_BYTES = EL_WITH_THIN ? 704 : 512,
     /* A draw call's; 8 for each change between whole and cut triangles come to it. */
-    EL_RUN_BYTES = EL_WITH_THIN ? 160 : 32
+    EL_RUN_BYTES = EL_WITH_THIN ? 160 : 32,
+    /* What the renderer knows of a core beside the caller's. */
+    EL_PAINTER_BYTES = 320
 };
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
@@ -73,6 +77,14 @@ enum {
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
      EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES + 8U)
 
+/* What comes to either of the two with `workers` cores: for each core but the first two colour bands, and for each two depth
+ * bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices have all depth bands
+ * then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it reaches. */
+#define EL_WORKERS_BYTES(width, band_lines, workers)                                                                   \
+    ((workers) < 2U ? 0U                                                                                               \
+                    : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES) +             \
+                          (2U * (workers)-1U) * EL_DEPTH_BAND_BYTES(width, band_lines))
+
 /* What its pointers name must outlive the renderer. */
 typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
@@ -85,30 +97,34 @@ typedef struct el_config {
     void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
+    const el_workers *workers; /* NULL: the caller's core draws alone. Else memory_bytes is EL_WORKERS_BYTES more */
 } el_config;
+
+/* A core beside the caller's. */
+typedef struct el_worker {
+    el_painter painter;
+    el_stats stats; /* what it did in this pass */
+} el_worker;
 
 /* Owned by the caller; its members are the renderer's. Small ones come first: Thumb code reaches them at once there. */
 typedef struct el_renderer {
-    uint8_t current;      /* which of `bands` is drawn into next */
-    uint8_t band_is_open; /* it is cleared, and part of its triangles are drawn */
     uint8_t in_frame;
+    uint8_t workers; /* 1, or config.workers' count */
 #if EL_WITH_DEBUG_VIEWS
     uint8_t pass_draws; /* draws before this pass, modulo 256 */
 #endif
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
-    uint16_t pass_bands; /* what the next pass tries for */
-#if EL_WITH_DEBUG_VIEWS
-    uint32_t band_work; /* this frame's before the open band, see EL_DEBUG_BANDS */
-#endif
-    uint16_t *depth;
-    uint32_t list_bytes;  /* all that lies between the bins and the depth band */
+    uint16_t pass_bands;  /* what the next pass tries for */
+    uint32_t list_bytes;  /* all that lies between the bins and the depth bands */
+    uint32_t depth_bytes; /* of all depth bands */
     uint32_t fixed_bytes; /* bands and bins */
     el_config config;
     el_list list;
     el_stats stats;
-    el_band bands[2];
+    el_painter painter; /* of the caller's core */
+    el_worker *others;  /* of the others, in the arena */
     el_view view;
 } el_renderer;
 

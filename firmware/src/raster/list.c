@@ -4,30 +4,20 @@
 
 #include "base/fixed.h"
 
-#define ROUND_UP(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
-
-static uint32_t record_bytes(el_record_kind kind)
-{
-    static const uint8_t bytes[EL_RECORD_KINDS] = {
-        [EL_RECORD_THIN] = ROUND_UP(EL_THIN_BYTES),
-        [EL_RECORD_PLAIN] = ROUND_UP(sizeof(el_record)),
-        [EL_RECORD_CUT] = ROUND_UP(sizeof(el_record)),
-        [EL_RECORD_PERSPECTIVE] = ROUND_UP(sizeof(el_record_perspective)),
-        [EL_RECORD_CLIPPED] = ROUND_UP(sizeof(el_record_clipped)),
-    };
-    return bytes[kind];
-}
-
 void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines)
 {
     list->base = memory;
     list->end = bytes;
     list->bins = bins;
-    list->bin_count = bin_count;
     list->band_lines = band_lines;
-#if !EL_SMALL_CODE
-    list->rows_to_bands = 0xFFFFFFFFU / band_lines + 1ULL;
-#endif
+    list->bin_count = bin_count;
+    list->is_shared = false;
+    /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
+     * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
+     * 2^11 * (2^16 + 1). */
+    const uint32_t lines_log2 = (uint32_t)el_bit_length_u32(band_lines - 1U);
+    list->band_shift = (uint8_t)(16U + lines_log2);
+    list->bands_per_row = ((1U << list->band_shift) + band_lines - 1U) / band_lines;
     el_list_clear(list);
 }
 
@@ -39,63 +29,68 @@ void el_list_clear(el_list *list)
     memset(list->bins, 0, list->bin_count * sizeof list->bins[0]);
 }
 
-static uint16_t name_of(const el_list *list, const void *at)
-{
-    return (uint16_t)((uint32_t)((const uint8_t *)at - list->base) / EL_LIST_UNIT);
-}
-
-static void put_into_bin(el_list *list, el_record *record, int32_t row)
-{
-#if EL_SMALL_CODE
-    uint16_t *const bin = &list->bins[(uint32_t)row / list->band_lines];
-#else
-    uint16_t *const bin = &list->bins[el_multiply_u16(list->rows_to_bands, (uint32_t)row) >> 32];
-#endif
-    const uint16_t name = name_of(list, record);
-    if (*bin == 0) {
-        record->next = name;
-    } else {
-        el_record *const last = el_list_at(list, *bin);
-        record->next = last->next;
-        last->next = name;
-    }
-    *bin = name;
-}
-
 /* Opens a run at the end of the list. `state`: the draw call's, which it is the first run of; else NULL, and `draw` is the
  * state's name. */
 static el_run *open_run(el_list *list, el_record_kind kind, const el_draw_state *state, uint16_t draw)
 {
     el_run *const run = (el_run *)(void *)(list->base + list->used);
-    list->run = name_of(list, run);
-    list->used += ROUND_UP(sizeof *run);
+    list->run = (uint16_t)(list->used / EL_LIST_UNIT);
+    list->used += EL_LIST_BYTES(sizeof *run);
     if (state != NULL) {
         draw = (uint16_t)(list->used / EL_LIST_UNIT);
         memmove(list->base + list->used, state, EL_DRAW_STATE_BYTES);
-        list->used += ROUND_UP(EL_DRAW_STATE_BYTES);
+        list->used += EL_LIST_BYTES(EL_DRAW_STATE_BYTES);
     }
-    *run = (el_run){.draw = draw, .count = 0, .kind = (uint8_t)kind};
+    *run = (el_run){.draw = draw, .kind = (uint8_t)kind};
     return run;
 }
 
-el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row)
+/* Puts a share of record `name` into the list's memory at byte `at`. Returns where it ends. */
+static uint32_t put_share(const el_list *list, uint16_t name, uint32_t at, int32_t row)
+{
+    el_record *const share = (el_record *)(void *)(list->base + at);
+    share->run = 0;
+    share->index = name;
+    share->at.row = (int16_t)row;
+    el_list_put(list, share, row);
+    return at + el_list_record_bytes(EL_RECORD_THIN);
+}
+
+#if EL_WITH_WORKERS
+uint32_t el_list_share(const el_list *list, const el_record *record, uint32_t at, int32_t row, int32_t row_end)
+{
+    const uint32_t end = el_list_band_of(list, row_end - 1) + 1U;
+    uint32_t band = el_list_band_of(list, row);
+    for (band += EL_GROUP_BANDS - band % EL_GROUP_BANDS; band < end; band += EL_GROUP_BANDS) {
+        at = put_share(list, el_list_name(list, record), at, (int32_t)(band * list->band_lines));
+    }
+    return at;
+}
+#endif
+
+el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row, int32_t row_end)
 {
     el_run *run = el_list_at(list, list->run);
     const bool opens_draw = list->run == 0;
-    const bool opens_run = opens_draw || run->kind != (uint8_t)kind || run->count == UINT16_MAX;
-    const uint32_t needed = record_bytes(kind) + (opens_run ? ROUND_UP(sizeof(el_run)) : 0U) +
-                            (opens_draw ? ROUND_UP(EL_DRAW_STATE_BYTES) : 0U);
-    if (needed > list->end || list->used > list->end - needed) {
+    const bool opens_run = opens_draw || run->kind != (uint8_t)kind;
+    const uint32_t bytes = el_list_record_bytes(kind);
+    const uint32_t share_bytes = el_list_share_bytes(list, row, row_end);
+    const uint32_t needed = bytes + share_bytes + (opens_run ? EL_LIST_BYTES(sizeof(el_run)) : 0U) +
+                            (opens_draw ? EL_LIST_BYTES(EL_DRAW_STATE_BYTES) : 0U);
+    if (needed > list->end - list->used) {
         return NULL;
     }
     if (opens_run) {
-        run = open_run(list, kind, opens_draw ? draw : NULL, run->draw);
+        const uint16_t draw_name = run->draw;
+        el_list_end_draw(list);
+        open_run(list, kind, opens_draw ? draw : NULL, draw_name);
     }
-    el_record *const record = (el_record *)(void *)(list->base + list->used);
-    list->used += record_bytes(kind);
-    run->count++;
-    record->run = list->run;
-    put_into_bin(list, record, row);
+    el_record *const record = el_list_append_same(list, bytes, share_bytes, row);
+#if EL_WITH_WORKERS
+    if (share_bytes != 0) {
+        list->used = el_list_share(list, record, list->used, row, row_end);
+    }
+#endif
     return record;
 }
 
@@ -108,27 +103,42 @@ static int32_t first_row(const el_record *record, el_record_kind kind)
     return el_first_centre(el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y)));
 }
 
+typedef struct run_records {
+    uint32_t begin, end; /* bytes from the list's base */
+    el_record_kind kind;
+} run_records;
+
 /* Moves the records of one run that begin above row_end to the end of the list's new part, `wanted` being their kind
  * there. */
-static void move_records(el_list *list, const el_run *from, const uint8_t *old, el_record_kind wanted,
-                         int32_t row_begin, int32_t row_end)
+static void move_records(el_list *list, const run_records *from, el_record_kind wanted, int32_t row_begin,
+                         int32_t row_end)
 {
-    el_run *const run = el_list_at(list, list->run);
-    const el_record_kind kind = (el_record_kind)from->kind;
-    for (uint16_t i = 0; i < from->count; i++, old += record_bytes(kind)) {
-        const int32_t row = first_row((const el_record *)(const void *)old, kind);
+    uint16_t kept = 0; /* name of the record whose shares come next, in the new part; 0: it is not there */
+    for (uint32_t at = from->begin; at < from->end;) {
+        const uint8_t *const old = list->base + at;
+        if (EL_WITH_WORKERS && ((const el_record *)(const void *)old)->run == 0) {
+            at += el_list_record_bytes(EL_RECORD_THIN);
+            const int32_t group_row = ((const el_record *)(const void *)old)->at.row;
+            if (kept != 0 && group_row < row_end) {
+                list->used = put_share(list, kept, list->used, group_row);
+            }
+            continue;
+        }
+        at += el_list_record_bytes(from->kind);
+        kept = 0;
+        const int32_t row = first_row((const el_record *)(const void *)old, from->kind);
         if (row >= row_end) {
             continue;
         }
         el_record *const record = (el_record *)(void *)(list->base + list->used);
-        memmove(record, old, record_bytes(wanted));
+        memmove(record, old, el_list_record_bytes(wanted));
         if (EL_WITH_THIN && wanted == EL_RECORD_THIN) {
             record->at.row = (int16_t)row;
         }
         record->run = list->run;
-        put_into_bin(list, record, el_max_i32(row, row_begin));
-        list->used += record_bytes(wanted);
-        run->count++;
+        el_list_put(list, record, el_max_i32(row, row_begin));
+        list->used += el_list_record_bytes(wanted);
+        kept = el_list_name(list, record);
     }
 }
 
@@ -146,9 +156,10 @@ static void compact(el_list *list, int32_t row_begin, int32_t row_end, bool make
         const el_run old = *(const el_run *)(const void *)(list->base + at);
         const bool is_open = at / EL_LIST_UNIT == open;
         const el_record_kind kind = (el_record_kind)old.kind;
+        const uint32_t old_end = is_open ? used : old.end * (uint32_t)EL_LIST_UNIT;
         const el_record_kind wanted =
             make_thin && (kind == EL_RECORD_PLAIN || kind == EL_RECORD_PERSPECTIVE) ? EL_RECORD_THIN : kind;
-        at += ROUND_UP(sizeof(el_run));
+        at += EL_LIST_BYTES(sizeof(el_run));
         const bool opens_draw = at / EL_LIST_UNIT == old.draw;
         if (opens_draw && list->used == draw_end) {
             list->used = draw_at; /* nothing was left of the draw before */
@@ -156,16 +167,19 @@ static void compact(el_list *list, int32_t row_begin, int32_t row_end, bool make
         const uint32_t run_at = list->used;
         const uint16_t draw = (uint16_t)(draw_at / EL_LIST_UNIT + 1U);
         el_run *const run = open_run(list, wanted, opens_draw ? el_list_at(list, old.draw) : NULL, draw);
-        at += opens_draw ? ROUND_UP(EL_DRAW_STATE_BYTES) : 0U;
+        at += opens_draw ? EL_LIST_BYTES(EL_DRAW_STATE_BYTES) : 0U;
         if (opens_draw) {
             draw_at = run_at;
             draw_end = list->used;
         }
-        move_records(list, &old, list->base + at, wanted, row_begin, row_end);
-        at += old.count * record_bytes(kind);
+        const uint32_t records_at = list->used;
+        const run_records from = {.begin = at, .end = old_end, .kind = kind};
+        move_records(list, &from, wanted, row_begin, row_end);
+        at = old_end;
+        run->end = (uint16_t)(list->used / EL_LIST_UNIT);
         if (is_open) {
             open_now = list->run;
-        } else if (run->count == 0 && !opens_draw) {
+        } else if (list->used == records_at && !opens_draw) {
             list->used = run_at;
         }
     }
@@ -187,7 +201,7 @@ void el_list_make_thin(el_list *list, int32_t row_begin)
 }
 #endif
 
-uint16_t el_list_take_bin(el_list *list, uint16_t band)
+uint16_t el_list_take_bin(const el_list *list, uint16_t band)
 {
     const uint16_t last_name = list->bins[band];
     if (last_name == 0) {

@@ -10,6 +10,11 @@
  * when they are set up, by the same function from the same numbers. Three times as many triangles fit, which saves
  * passes, and each pass looks at every vertex of the scene.
  *
+ * Where several cores draw, each draws groups of neighbouring bands, and a triangle that reaches into further groups has a
+ * share in each: 8 bytes behind its record, in the bin of the group's first band. So a group has all that is drawn into it
+ * in its own bins, and no core writes what another one reads: records are written no more, but for the `next` of what is
+ * in a bin.
+ *
  * Records are named by their offset in units of 8 bytes, so a later record has a larger name: comparing names compares
  * the order of submission, which decides ties in depth. A bin is a circular list, named by its last record, so that
  * appending and taking from the front are both one step. */
@@ -29,6 +34,9 @@ extern "C" {
 #endif
 
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
+#define EL_LIST_BYTES(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
+
+enum { EL_GROUP_BANDS = 2 }; /* as many as a core has buffers for */
 
 typedef enum el_record_kind {
     EL_RECORD_THIN,        /* the first EL_THIN_BYTES of an el_record */
@@ -73,8 +81,8 @@ static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area
 
 typedef struct el_run {
     uint16_t draw; /* its el_draw_state, behind this header or behind an earlier one's */
-    uint16_t count;
-    uint8_t kind; /* el_record_kind */
+    uint16_t end;  /* name of what follows its last record; valid when it no longer takes records */
+    uint8_t kind;  /* el_record_kind */
 } el_run;
 
 typedef struct el_point {
@@ -83,17 +91,16 @@ typedef struct el_point {
 } el_point;
 
 typedef struct el_record {
-    uint16_t next;  /* in its bin or in the list of active triangles; 0: none */
-    uint16_t run;   /* its el_run */
-    uint16_t index; /* of the mesh's triangle; EL_INDEX_ACTIVE: set up, and its state is in place of the points */
+    uint16_t next;  /* in its bin; 0: none */
+    uint16_t run;   /* its el_run; 0: this is a share, of EL_RECORD_THIN's size */
+    uint16_t index; /* of the mesh's triangle; of a share: the name of its record */
     union {
         el_point points[3];
-        uint16_t state; /* of an active triangle: its el_triangle */
-        int16_t row;    /* of a thin one: the first row with a pixel centre inside */
+        int16_t row; /* of a thin one: the first row with a pixel centre inside; of a share: its group's first row */
     } at;
 } el_record;
 
-enum { EL_INDEX_ACTIVE = 0xFFFF, EL_THIN_BYTES = offsetof(el_record, at) + sizeof(int16_t) };
+enum { EL_THIN_BYTES = offsetof(el_record, at) + sizeof(int16_t) };
 
 typedef struct el_record_perspective {
     el_record record;
@@ -115,13 +122,14 @@ typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    bool is_thin;           /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
-    uint8_t *base;          /* 8-byte aligned */
-    uint32_t end;           /* bytes that may be used now */
-    uint32_t used;          /* bytes */
-    uint16_t *bins;         /* last record of each band; 0: none */
-    uint64_t rows_to_bands; /* unless EL_SMALL_CODE: 2^32 / band_lines, rounded up: a product instead of a division,
-                               exact for rows < 2^16 */
+    bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    bool is_shared;     /* triangles have shares */
+    uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
+    uint32_t bands_per_row;
+    uint8_t *base;  /* 8-byte aligned */
+    uint32_t end;   /* bytes that may be used now; at least `used` */
+    uint32_t used;  /* bytes */
+    uint16_t *bins; /* last record of each band; 0: none */
 } el_list;
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
@@ -139,6 +147,19 @@ static inline const el_draw_state *el_list_draw(const el_list *list, const el_re
     return (const el_draw_state *)el_list_at(list, el_list_run(list, record)->draw);
 }
 
+/* Bytes of a record of that kind, in whole units. */
+static inline uint32_t el_list_record_bytes(el_record_kind kind)
+{
+    static const uint8_t bytes[EL_RECORD_KINDS] = {
+        [EL_RECORD_THIN] = EL_LIST_BYTES(EL_THIN_BYTES),
+        [EL_RECORD_PLAIN] = EL_LIST_BYTES(sizeof(el_record)),
+        [EL_RECORD_CUT] = EL_LIST_BYTES(sizeof(el_record)),
+        [EL_RECORD_PERSPECTIVE] = EL_LIST_BYTES(sizeof(el_record_perspective)),
+        [EL_RECORD_CLIPPED] = EL_LIST_BYTES(sizeof(el_record_clipped)),
+    };
+    return bytes[kind];
+}
+
 static inline bool el_list_is_thin(const el_list *list)
 {
     return EL_WITH_THIN && list->is_thin;
@@ -153,13 +174,78 @@ void el_list_clear(el_list *list);
 /* The next record belongs to another draw call. */
 static inline void el_list_end_draw(el_list *list)
 {
-    list->run = 0;
+    if (list->run != 0) {
+        ((el_run *)el_list_at(list, list->run))->end = (uint16_t)(list->used / EL_LIST_UNIT);
+        list->run = 0;
+    }
 }
 
-/* Appends a record of that kind to the bin of the band that has screen row `row`, opening a run if the last one is of
- * another kind, and for `draw` if the last draw call has ended. Its run and next are set; the caller fills in the rest.
- * NULL when it is full. */
-el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row);
+/* The band that has screen row `row`, 0 <= row < EL_MAX_HEIGHT. */
+static inline uint32_t el_list_band_of(const el_list *list, int32_t row)
+{
+    return (uint32_t)row * list->bands_per_row >> list->band_shift;
+}
+
+/* What is to be drawn under the name of a record or of a share. */
+static inline const el_record *el_list_record(const el_list *list, uint16_t name)
+{
+    const el_record *const record = (const el_record *)el_list_at(list, name);
+    return EL_WITH_WORKERS && record->run == 0 ? (const el_record *)el_list_at(list, record->index) : record;
+}
+
+static inline uint16_t el_list_name(const el_list *list, const el_record *record)
+{
+    return (uint16_t)((uint32_t)((const uint8_t *)record - list->base) / EL_LIST_UNIT);
+}
+
+/* Puts a record into the bin of the band that has screen row `row`, as its last. */
+static inline void el_list_put(const el_list *list, el_record *record, int32_t row)
+{
+    uint16_t *const bin = &list->bins[el_list_band_of(list, row)];
+    const uint16_t name = el_list_name(list, record);
+    if (*bin == 0) {
+        record->next = name;
+    } else {
+        el_record *const last = (el_record *)el_list_at(list, *bin);
+        record->next = last->next;
+        last->next = name;
+    }
+    *bin = name;
+}
+
+/* Bytes of the shares of a triangle with rows [row, row_end) in the pass. */
+static inline uint32_t el_list_share_bytes(const el_list *list, int32_t row, int32_t row_end)
+{
+    if (!EL_WITH_WORKERS || !list->is_shared) {
+        return 0;
+    }
+    const uint32_t groups =
+        el_list_band_of(list, row_end - 1) / EL_GROUP_BANDS - el_list_band_of(list, row) / EL_GROUP_BANDS;
+    return groups * el_list_record_bytes(EL_RECORD_THIN);
+}
+
+/* Puts a record's shares into the list's memory from byte `at` on, and into their bins. Returns where they end. */
+uint32_t el_list_share(const el_list *list, const el_record *record, uint32_t at, int32_t row, int32_t row_end);
+
+/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
+ * Its run and next are set; the caller fills in the rest, and sees to its shares. NULL when the list has
+ * no room for it and for `more` bytes. Where a caller has a copy of the list, for as long as nobody else looks at it, all that this changes
+ * but the records stays in registers. */
+static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, uint32_t more, int32_t row)
+{
+    if (bytes + more > list->end - list->used) {
+        return NULL;
+    }
+    el_record *const record = (el_record *)(void *)(list->base + list->used);
+    list->used += bytes;
+    record->run = list->run;
+    el_list_put(list, record, row);
+    return record;
+}
+
+/* The same for any kind, with its shares, for a triangle with rows [row, row_end) in the pass: opens a run if the last one
+ * is of another kind, and for `draw` if the last draw call has ended. */
+el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row, int32_t row_end);
 
 /* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
  * the bin of row_begin. The run that takes records stays open. */
@@ -170,7 +256,7 @@ void el_list_keep_rows(el_list *list, int32_t row_begin, int32_t row_end);
 void el_list_make_thin(el_list *list, int32_t row_begin);
 
 /* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */
-uint16_t el_list_take_bin(el_list *list, uint16_t band);
+uint16_t el_list_take_bin(const el_list *list, uint16_t band);
 
 /* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
