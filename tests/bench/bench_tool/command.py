@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, size
+from . import codec, compare, frames, growth, growth_plot, size
 from .machines import (
     BENCH,
     MAIN_CORES,
@@ -25,6 +25,7 @@ from .machines import (
 
 RESULTS = BENCH / "results"
 CODEC = RESULTS / "codec.json"
+GROWTH = RESULTS / "growth.json"
 STATUS_SKIPPED = 77
 
 
@@ -44,6 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
     what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed, check them")
     what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
+    what.add_argument("--growth", action="store_true", help="print how cost grows, check the laws that it follows")
+    what.add_argument("--record-growth", action="store_true", help="measure that, write tests/bench/results and charts")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -96,6 +99,8 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
             codec.compare_with_recorded(streams, read_recorded(CODEC), verdicts)
         else:
             _write_json(CODEC, {"sequences": codec.rows(streams)}, "tests/bench/run --record-codec")
+    if options.quick or options.growth or options.record_growth or options.all:
+        _grow(options, machines, verdicts)
     if options.alternatives or options.all:
         groups = compare.measure(machines, verdicts)
         print(compare.table(groups))
@@ -103,6 +108,21 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
             _write_json(RESULTS / "accuracy_cost.json", {"groups": groups})
             (RESULTS / "accuracy_cost.csv").write_text(compare.as_csv(groups), encoding="utf-8")
             _plot(RESULTS / "accuracy_cost.json", RESULTS / "accuracy_cost.png")
+
+
+def _grow(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdicts) -> None:
+    rows = growth.measure(machines, verdicts)
+    growth.check(rows, verdicts)
+    if not options.quick:
+        print(growth.table(rows))
+    if options.record_growth or options.all:
+        _write_json(GROWTH, growth.content(rows), "tests/bench/run --record-growth")
+        for picture in growth_plot.draw(rows, RESULTS):
+            print(f"wrote {picture.relative_to(ROOT)}")
+        return
+    recorded = read_recorded(GROWTH)
+    if recorded["compiler"] == compiler_version():
+        growth.compare_with_recorded(rows, recorded, verdicts)
 
 
 def read_recorded(path: Path) -> dict[str, Any]:
