@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, growth, growth_plot, size
+from . import against, codec, compare, frames, growth, growth_plot, size
 from .machines import (
     BENCH,
     MAIN_CORES,
@@ -47,6 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
     what.add_argument("--growth", action="store_true", help="print how cost grows, check the laws that it follows")
     what.add_argument("--record-growth", action="store_true", help="measure that, write tests/bench/results and charts")
+    what.add_argument("--against", metavar="REVISION", help="print native time relative to another git revision")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -89,6 +90,8 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
         print(frames.table(found))
         if options.all:
             _write_json(RESULTS / "scenes.json", {"frames": frames.rows(found)})
+    if options.against is not None:
+        print(against.table(*against.measure(machines, options.against, verdicts)))
     if options.profile is not None:
         for core in MAIN_CORES:
             _print_profile(core, machines.profile(core, options.profile))

@@ -136,10 +136,12 @@ def qemu_version() -> str:
 
 
 class Machines:
-    """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed."""
+    """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed.
+    `source` is this folder's parent, or that of another revision."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, source: Path = BENCH) -> None:
         self.folder = folder
+        self.source = source
         self._configured: dict[str, Path] = {}
 
     def native(self, program: str, keep: Path | None = None, bits: int = 4) -> list[Line]:
@@ -204,7 +206,7 @@ class Machines:
         """The program, built for a core or "native"."""
         tree = self._tree(core, bits)
         if str(tree) not in self._configured:
-            command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
+            command: list[str | Path] = ["cmake", "-S", self.source, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
             command += ["-DCMAKE_C_FLAGS_RELEASE=-O2 -g", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
             if core != "native":
                 command += [f"-DCMAKE_TOOLCHAIN_FILE={CORES[core].toolchain}", f"-DEDGELINE_CPU={core}"]
