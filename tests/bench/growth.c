@@ -115,7 +115,7 @@ static int measure_layers(void)
 
 static int measure_outside(void)
 {
-    static const growth_scene *const ways[] = {&growth_outside_meshes, &growth_outside_mesh};
+    static const growth_scene *const ways[] = {&growth_outside_meshes, &growth_outside_mesh, &growth_outside_behind};
     /* 0, 50, 75, 90, 95, 97.5, 98.3 and 99 % are outside. */
     static const uint32_t counts[] = {GROWTH_SPHERES_SEEN, 10, 20, 50, 100, 200, 300, GROWTH_SPHERES};
     int failed = 0;

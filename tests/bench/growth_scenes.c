@@ -24,6 +24,7 @@ static uint16_t texels[1 << (2 * TEXTURE_LOG2)];
 
 static el_mesh whole;                   /* all that is in the arrays */
 static el_mesh spheres[GROWTH_SPHERES]; /* one for each part of them */
+static el_mesh behind;                  /* many parts */
 static el_material layers[GROWTH_LAYERS];
 
 static const el_texture texture = {texels, TEXTURE_LOG2, TEXTURE_LOG2};
@@ -290,23 +291,44 @@ static void place_sphere(uint32_t index, int32_t centre[3])
     }
 }
 
-static void make_spheres(uint32_t frame)
+/* Adds a sphere to the arrays, and makes `part` a mesh of it alone, with the first sphere's indices and colours. */
+static void add_small_sphere(const int32_t centre[3], el_mesh *part)
 {
     enum { RADIUS = 230 };
+    *part = whole;
+    part->positions += whole.vertex_count;
+    part->vertex_count = SMALL_VERTICES;
+    part->triangle_count = GROWTH_SPHERE_TRIANGLES;
+    part->radius = RADIUS + 2;
+    set_3(part->centre, centre[0], centre[1], centre[2]);
+    add_sphere(SMALL_RINGS, SMALL_SEGMENTS, centre, RADIUS);
+}
+
+static void make_spheres(uint32_t frame)
+{
     begin_mesh(-8, INT16_MAX);
     for (uint32_t i = 0; i < frame; i++) {
         int32_t centre[3];
         place_sphere(i, centre);
-        const el_mesh before = whole;
-        add_sphere(SMALL_RINGS, SMALL_SEGMENTS, centre, RADIUS);
-        /* A part has the indices of the first one. */
-        spheres[i] = before;
-        spheres[i].positions += before.vertex_count;
-        spheres[i].triangle_colours += before.triangle_count;
-        spheres[i].vertex_count = SMALL_VERTICES;
-        spheres[i].triangle_count = GROWTH_SPHERE_TRIANGLES;
-        spheres[i].radius = RADIUS + 2;
-        set_3(spheres[i].centre, centre[0], centre[1], centre[2]);
+        add_small_sphere(centre, &spheres[i]);
+    }
+}
+
+/* The spheres outside first: they are one mesh, `behind`; those in the view are meshes of their own. */
+static void make_spheres_behind(uint32_t frame)
+{
+    enum { FROM = 10 * 256, TO = 108 * 256 };
+    begin_mesh(-8, (TO - FROM) / 2 + 256);
+    for (uint32_t i = GROWTH_SPHERES_SEEN; i < frame; i++) {
+        const int32_t centre[3] = {0, 0, FROM + (int32_t)(i - GROWTH_SPHERES_SEEN) * 50};
+        add_small_sphere(centre, &spheres[i]);
+    }
+    behind = whole;
+    behind.centre[2] = (FROM + TO) / 2;
+    for (uint32_t i = 0; i < GROWTH_SPHERES_SEEN; i++) {
+        int32_t centre[3];
+        place_sphere(i, centre);
+        add_small_sphere(centre, &spheres[i]);
     }
 }
 
@@ -322,6 +344,14 @@ static el_status outside_draw_meshes(uint32_t frame, el_renderer *renderer)
     return status;
 }
 
+static el_status outside_draw_behind(uint32_t frame, el_renderer *renderer)
+{
+    (void)frame;
+    const el_pose pose = el_pose_identity();
+    const el_status status = el_draw(renderer, &behind, &pose, &sphere_material);
+    return status != EL_OK ? status : outside_draw_meshes(GROWTH_SPHERES_SEEN, renderer);
+}
+
 static el_status outside_draw_mesh(uint32_t frame, el_renderer *renderer)
 {
     (void)frame;
@@ -333,3 +363,6 @@ const growth_scene growth_outside_meshes = {
     {"many-meshes", "spheres, few of them in the view", 0, look_ahead, outside_draw_meshes, NULL}, make_spheres};
 const growth_scene growth_outside_mesh = {
     {"one-mesh", "the same spheres as one mesh", 0, look_ahead, outside_draw_mesh, NULL}, make_spheres};
+const growth_scene growth_outside_behind = {
+    {"mesh-behind", "spheres in the view, many as one mesh behind it", 0, look_ahead, outside_draw_behind, NULL},
+    make_spheres_behind};

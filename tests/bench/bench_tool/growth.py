@@ -160,6 +160,15 @@ LAWS = (
     ),
     Law(
         "outside",
+        "mesh-behind",
+        "flat: one test for all of it",
+        (FRAME, TRIANGLE_OUTSIDE),
+        0.03,
+        (0.2, 0.1),
+        "",
+    ),
+    Law(
+        "outside",
         "one-mesh",
         "linear with a small slope: each vertex is looked at",
         (FRAME, TRIANGLE_OUTSIDE),

@@ -31,6 +31,7 @@ class Chart:
     ticks: tuple[int, ...] = ()  # x is logarithmic and has these
     y_from_0: bool = True  # else logarithmic
     marks: Callable[[Row], str] | None = None  # labels above the panel; "" for none
+    passes: bool = False  # stand beside frames that took more than one
 
 
 def _layers(shading: str) -> Chart:
@@ -49,6 +50,7 @@ CHARTS = {
         lambda row: f"arena {row.arena_bytes // 1024} KB",
         ticks=(100, 300, 1000, 3000, 10000, 50000),
         y_from_0=False,
+        passes=True,
     ),
     "pixels": Chart("pixels", "A board of 24 triangles comes nearer", "pixels on the screen", lambda row: row.pixels),
     "layers_flat": _layers("flat"),
@@ -107,11 +109,15 @@ def draw(rows: Sequence[Row], folder: Path) -> list[Path]:
 def _draw_curves(panel: Any, chart: Chart, rows: Sequence[Row], core: str) -> None:
     """Points as measured, lines by the laws."""
     curves: dict[str, list[tuple[float, float, float]]] = {}
+    beside = {"textcoords": "offset points", "xytext": (-5, 3), "ha": "right", "fontsize": 6.5, "color": "0.3"}
     for law in LAWS:
         if law.series == chart.series and law.variant.startswith(chart.variants):
             mine = rows_of(law, rows)
             for row, cost in zip(mine, predicted(law, mine, fit(law, mine, core)), strict=True):
-                curves.setdefault(chart.curve(row), []).append((chart.x(row), row.instructions[core], cost))
+                at = chart.x(row), row.instructions[core]
+                curves.setdefault(chart.curve(row), []).append((*at, cost))
+                if chart.passes and row.passes > 1:
+                    panel.annotate(f"{row.passes} passes", (at[0], at[1] / 1e6), **beside)
     for (name, points), (colour, marker, dashes) in zip(curves.items(), CURVES, strict=False):
         xs, measured, expected = zip(*sorted(points), strict=True)
         panel.plot(xs, [cost / 1e6 for cost in expected], dashes, color=colour, linewidth=1.2, zorder=2)
