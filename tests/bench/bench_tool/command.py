@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, models, size, stages, tables
+from . import against, codec, compare, frames, growth, growth_plot, models, size, stages, tables
 from .machines import (
     BENCH,
     CORES,
@@ -28,6 +28,7 @@ RESULTS = BENCH / "results"
 SCENES = RESULTS / "scenes.json"
 CODEC = RESULTS / "codec.json"
 QUICK_CORES = (*MAIN_CORES, "rv32imc")
+GROWTH = RESULTS / "growth.json"
 STATUS_SKIPPED = 77
 
 
@@ -50,6 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
     what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed, check them")
     what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
+    what.add_argument("--growth", action="store_true", help="print how cost grows, check the laws that it follows")
+    what.add_argument("--record-growth", action="store_true", help="measure that, write tests/bench/results and charts")
+    what.add_argument("--against", metavar="REVISION", help="print native time relative to another git revision")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -85,6 +89,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
         print(tables.instructions(frames.measure(machines, verdicts)))
     if options.record_scenes or options.all:
         _record_scenes(machines, verdicts)
+    if options.against is not None:
+        print(against.table(*against.measure(machines, options.against, verdicts)))
     if options.profile is not None:
         for core in MAIN_CORES:
             _print_profile(machines, core, options.profile)
@@ -95,6 +101,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
             codec.compare_with_recorded(streams, read_recorded(CODEC), verdicts)
         else:
             _write_json(CODEC, {"sequences": codec.rows(streams)}, "tests/bench/run --record-codec")
+    if options.quick or options.growth or options.record_growth or options.all:
+        _grow(options, machines, verdicts)
     if options.alternatives or options.all:
         groups = compare.measure(machines, verdicts)
         print(compare.table(groups))
@@ -135,6 +143,21 @@ def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
 
 def _code_of(machines: Machines, core: str) -> dict[str, int]:
     return size.linked(machines.build(core, "scenes").with_name("scenes.map"))
+
+
+def _grow(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdicts) -> None:
+    rows = growth.measure(machines, verdicts)
+    growth.check(rows, verdicts)
+    if not options.quick:
+        print(growth.table(rows))
+    if options.record_growth or options.all:
+        _write_json(GROWTH, growth.content(rows), "tests/bench/run --record-growth")
+        for picture in growth_plot.draw(rows, RESULTS):
+            print(f"wrote {picture.relative_to(ROOT)}")
+        return
+    recorded = read_recorded(GROWTH)
+    if recorded["compiler"] == compiler_version():
+        growth.compare_with_recorded(rows, recorded, verdicts)
 
 
 def read_recorded(path: Path) -> dict[str, Any]:

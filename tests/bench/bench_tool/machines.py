@@ -135,12 +135,14 @@ def qemu_version() -> str:
 
 
 class Machines:
-    """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed."""
+    """Build trees below `folder`, one per core and number of sub-pixel bits; each is made when it is first needed.
+    `source` is this folder's parent, or that of another revision."""
 
-    def __init__(self, folder: Path, models: Path | None = None) -> None:
+    def __init__(self, folder: Path, models: Path | None = None, source: Path = BENCH) -> None:
         """`models` is the folder of the models' headers; without, they are not measured."""
         self.folder = folder
         self.models = models
+        self.source = source
         self._configured: dict[str, Path] = {}
 
     def native(self, program: str, keep: Path | None = None, bits: int = 4) -> list[Line]:
@@ -180,7 +182,7 @@ class Machines:
         """The program, built for a core or "native"."""
         tree = self._tree(core, bits)
         if str(tree) not in self._configured:
-            command: list[str | Path] = ["cmake", "-S", BENCH, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
+            command: list[str | Path] = ["cmake", "-S", self.source, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
             command += ["-DCMAKE_C_FLAGS_RELEASE=-O2 -g", f"-DEDGELINE_SUBPIXEL_BITS={bits}"]
             command += [f"-DEDGELINE_BENCH_MODELS={self.models or ''}"]
             if core != "native":

@@ -1,0 +1,29 @@
+/* One frame, measured: rendered into a sink that only sums its pixels up. The sums stand outside of what is measured, so a
+ * figure is what the renderer itself costs, from el_frame_begin to the last band, the call of the sink included. */
+#ifndef EL_BENCH_FRAME_H
+#define EL_BENCH_FRAME_H
+
+#include "scene.h"
+
+/* What a measurement is about, apart from the scene. */
+typedef struct bench_setting {
+    uint16_t band_lines;
+    uint8_t uv_error_log2;
+    void *arena;
+    uint32_t arena_bytes;
+} bench_setting;
+
+enum { BENCH_WIDTH = 320, BENCH_HEIGHT = 240 };
+
+/* Measures frame `number` of `scene` between bench_start and bench_stop, after one bench_next. `crc` gets the CRC-32 of its
+ * RGB565 pixels; the counters are el_frame_stats of `renderer`. The error of el_init or of the scene. */
+el_status bench_frame(const el_scene *scene, uint32_t number, const bench_setting *setting, el_renderer *renderer,
+                      uint32_t *crc);
+
+/* What a pair of markers costs by itself: the first measurement of a program, and its line. */
+void bench_empty(void);
+
+/* "NAMEvalue" */
+void bench_print_item(const char *name, uint64_t value);
+
+#endif
