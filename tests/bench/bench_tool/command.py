@@ -127,6 +127,8 @@ def _check(machines: Machines, verdicts: frames.Verdicts) -> None:
 
 
 def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
+    if machines.models is None:
+        raise BenchError("models are recorded too: have shared/models beside the repository, or set EDGELINE_MODELS")
     found = frames.measure(machines, verdicts)
     for bits in (6, 8):
         # How bits and the texture's bound act together is of no interest.
@@ -139,6 +141,8 @@ def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
     _write_json(SCENES, {**facts, "frames": frames.rows(found)}, frames.RECORD)
     SCENES.with_suffix(".md").write_text(tables.document(found, code, frames.RECORD), encoding="utf-8")
     _plot(SCENES, SCENES.with_suffix(".png"))
+    for path in tables.DOCUMENTS:
+        path.write_text(tables.embed(path.read_text(encoding="utf-8"), found, code), encoding="utf-8")
 
 
 def _code_of(machines: Machines, core: str) -> dict[str, int]:

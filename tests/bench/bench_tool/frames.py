@@ -219,7 +219,9 @@ def _compare(frame: Frame, was: Frame, verdicts: Verdicts) -> None:
         stages = ""
         if core in was.stages:
             grown = {name: frame.stages[core][name] - was.stages[core][name] for name in (*STAGES, REST)}
-            stages = ", ".join(f"{name} {more / 1e6:+.3f} M" for name, more in grown.items() if more != 0)
+            # What is too little to matter is left out.
+            told = {name: more for name, more in grown.items() if abs(more) > count / 1000}
+            stages = ", ".join(f"{name} {more / 1e6:+.3f} M" for name, more in told.items())
         what = f"{frame.title} on {core}: instructions ({stages or 'as they were by stage'})"
         verdicts.compare(what, count, was.instructions.get(core, 0), RECORD)
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from .frames import PEERS, TARGETS, Frame
-from .machines import CORES, MAIN_CORES
+from .machines import CORES, MAIN_CORES, ROOT, BenchError
 from .size import RENDERER
 from .stages import STAGES
+
+# They carry tables between lines "<!-- bench: NAME -->" and "<!-- bench end -->", which embed() keeps as measured.
+DOCUMENTS = (ROOT / "README.md", ROOT / "firmware" / "DESIGN.md")
 
 USUAL_UV = 3
 LARGE_ARENA = 130 * 1024
@@ -154,3 +158,22 @@ def document(frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]], co
         code(sizes),
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def embed(text: str, frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]]) -> str:
+    """A document with its tables as measured."""
+    tables = {
+        "instructions": lambda: instructions(frames),
+        "peers": lambda: against_peers(frames),
+        "stages": lambda: by_stage(frames),
+        "memory": lambda: memory(frames),
+        "exactness": lambda: exactness(frames),
+        "code": lambda: code(sizes),
+    }
+
+    def table(found: re.Match[str]) -> str:
+        if found[1] not in tables:
+            raise BenchError(f"a document asks for the table '{found[1]}'; there are {', '.join(tables)}")
+        return f"<!-- bench: {found[1]} -->\n{tables[found[1]]()}\n<!-- bench end -->"
+
+    return re.sub(r"<!-- bench: (\S+) -->\n.*?<!-- bench end -->", table, text, flags=re.DOTALL)
