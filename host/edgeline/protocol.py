@@ -39,6 +39,8 @@ COUNTERS = (
     "bands",
     "flushes",
     "memory_peak",
+    "lines_background",
+    "frames_unchanged",
 )
 """The names of FRAME_END's work counters, in the order of firmware/src/base/stats.h."""
 

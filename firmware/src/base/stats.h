@@ -28,6 +28,8 @@ typedef struct el_stats {
     uint32_t bands;              /* bands handed to the sinks */
     uint32_t flushes;            /* lists drawn early into a band because they were full */
     uint32_t memory_peak;        /* largest use of the arena, bytes */
+    uint32_t lines_background; /* lines of bands left out: background, in the frame before too (EL_REUSE_BACKGROUND) */
+    uint32_t frames_unchanged; /* 1: this frame is the one before, nothing was drawn (EL_REUSE_FRAME) */
 } el_stats;
 
 static inline void el_count(uint32_t *counter, uint32_t events)

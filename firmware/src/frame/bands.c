@@ -3,6 +3,7 @@
 #include "base/fill.h"
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
+#include "frame/quiet.h"
 
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
  * has left of its memory, and their records form one list in the order of submission. Where there is no room for a
@@ -71,10 +72,10 @@ static void hand_over(el_renderer *renderer)
     el_band *const band = &renderer->bands[renderer->current];
     el_debug_finish_band(renderer, band);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        band->held[i] = renderer->config.sinks[i] != NULL;
+        band->held[i] = el_quiet_taker(renderer, i) != NULL;
     }
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        const el_sink *const sink = renderer->config.sinks[i];
+        const el_sink *const sink = el_quiet_taker(renderer, i);
         if (sink != NULL) {
             sink->rows(sink->context, band, i);
         }
@@ -174,6 +175,10 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
     states pool = {.used = list->used};
     uint16_t carried = 0;
     for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
+        const bool is_empty = !renderer->band_is_open && carried == 0 && list->bins[band] == 0;
+        if (hand_over_bands && el_quiet_leaves_out(renderer, band, is_empty)) {
+            continue;
+        }
         const el_target target = open_band(renderer, band);
         carried = draw_band(renderer, band, &target, carried, &pool);
         if (hand_over_bands) {
