@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, size
+from . import codec, compare, frames, size, still
 from .machines import (
     BENCH,
     CORES,
@@ -38,6 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="check pictures against the simulator and counts against the results",
     )
     what.add_argument("--scenes", action="store_true", help="print the frames' instruction counts")
+    what.add_argument("--still", action="store_true", help="print what it saves to leave out what has not changed")
     what.add_argument("--profile", metavar="SCENE", help="print which functions a scene's instructions go to")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
@@ -86,6 +87,8 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
         print(frames.table(found))
         if options.all:
             _write_json(RESULTS / "scenes.json", {"frames": frames.rows(found)})
+    if options.still:
+        print(still.table(still.measure(machines, verdicts)))
     if options.profile is not None:
         for core in CORES:
             _print_profile(core, machines.profile(core, options.profile))
