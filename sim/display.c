@@ -70,6 +70,13 @@ static const panel_driver *find_driver(const char *panel)
 
 static el_status start_tft(el_display *display, const el_display_config *config, const el_tft_model *model)
 {
+    const size_t shown_bytes = config->sparing ? EL_TFT_SHOWN_BYTES((size_t)display->width, display->height) : 0;
+    if (shown_bytes > 0) {
+        display->memory = malloc(shown_bytes);
+        if (display->memory == NULL) {
+            return EL_ERROR_MEMORY;
+        }
+    }
     const el_status status = el_tft_init(&display->driver.tft, &(el_tft_config){
                                                                    .bus = &display->bus,
                                                                    .model = model,
@@ -78,6 +85,8 @@ static el_status start_tft(el_display *display, const el_display_config *config,
                                                                    .rgb_order = config->rgb_order,
                                                                    .inverted = config->inverted,
                                                                    .byte_order = config->byte_order,
+                                                                   .shown = display->memory,
+                                                                   .shown_bytes = shown_bytes,
                                                                });
     display->sink = el_tft_sink(&display->driver.tft);
     return status;

@@ -24,6 +24,7 @@ typedef struct el_display_config {
     uint8_t rgb_order;
     el_byte_order byte_order;
     bool bytes_only; /* the bus has no 16-bit words */
+    bool sparing;    /* a colour panel's driver sends what has changed only */
     size_t chunk;    /* of the bus; 0: immediate */
     el_lcd_tap tap;  /* of the bus */
 } el_display_config;
@@ -43,7 +44,7 @@ typedef struct el_display {
         el_tft tft;
         el_oled oled;
     } driver;
-    uint8_t *memory; /* of an OLED's driver */
+    void *memory; /* of the driver */
 } el_display;
 
 /* How the module is turned for the viewer, as el_lcd_look takes it: EL_ROTATION_90 has the upper edge on the left. */

@@ -43,6 +43,15 @@ static void depth_rows(void *context, el_band *band, unsigned slot)
     el_band_release(band, slot);
 }
 
+/* They have the depths that they had. */
+static bool depth_unchanged(void *context, uint16_t y, uint16_t lines)
+{
+    (void)context;
+    (void)y;
+    (void)lines;
+    return true;
+}
+
 static void depth_end(void *context, const el_stats *stats)
 {
     (void)context;
@@ -58,6 +67,7 @@ static el_display_config choose_display(const el_machine_config *config)
         .band_lines = config->band_lines,
         .chunk = CHUNK,
         .tap = config->tap,
+        .sparing = config->sparing,
     };
     if (config->panel == NULL) {
         const el_lcd_profile *const usual = &EL_LCD_ILI9341;
@@ -74,17 +84,22 @@ static el_display_config choose_display(const el_machine_config *config)
 static bool open_renderer(el_machine *machine)
 {
     const el_machine_config *const config = &machine->config;
-    machine->depth_sink = (el_sink){.context = machine, .begin = depth_begin, .rows = depth_rows, .end = depth_end};
+    machine->depth_sink = (el_sink){.context = machine,
+                                    .begin = depth_begin,
+                                    .rows = depth_rows,
+                                    .unchanged = depth_unchanged,
+                                    .end = depth_end};
     const el_config renderer_config = {
         .width = config->width,
         .height = config->height,
         .band_lines = config->band_lines,
         .background = config->background,
         .uv_error_log2 = config->uv_error_log2,
+        .reuse = config->sparing ? EL_REUSE_BACKGROUND | EL_REUSE_FRAME : 0,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
         .workers = machine->threads != NULL ? el_threads_workers(machine->threads) : NULL,
-        .sinks = {&machine->display.sink, &machine->depth_sink, config->extra_sink},
+        .sinks = {&machine->depth_sink, config->extra_sink, &machine->display.sink}, /* the last may move pixels */
     };
     const el_status status = el_init(&machine->renderer, &renderer_config);
     if (status == EL_ERROR_MEMORY) {

@@ -1,4 +1,5 @@
 /* render: frames into files, checksums and counters. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,7 +71,8 @@ static bool parse(int argc, char **argv, render_options *o)
         PAN_X,
         PAN_Y,
         CRC,
-        STATS
+        STATS,
+        SPARING
     };
     static const struct option options[] = {
         EL_COMMON_OPTIONS,
@@ -93,6 +95,7 @@ static bool parse(int argc, char **argv, render_options *o)
         {"pan-y", required_argument, NULL, PAN_Y},
         {"crc", no_argument, NULL, CRC},
         {"stats", no_argument, NULL, STATS},
+        {"sparing", no_argument, NULL, SPARING},
         {NULL, 0, NULL, 0},
     };
     *o = (render_options){.common = el_common_options_default(1)};
@@ -111,6 +114,8 @@ static bool parse(int argc, char **argv, render_options *o)
             o->crc = true;
         } else if (which == STATS) {
             o->stats = true;
+        } else if (which == SPARING) {
+            o->common.machine.sparing = true;
         } else if (!el_common_options_take(&o->common, which, optarg)) {
             return false;
         }
@@ -146,10 +151,13 @@ static const char *const stat_names[] = {
     "clusters_outside",
     "clusters_turned",
     "triangles_skipped",
+    "lines_background",
+    "frames_unchanged",
 };
 _Static_assert(sizeof stat_names / sizeof stat_names[0] == EL_STATS_COUNT, "a name for each counter");
 
-static void print_stats(uint32_t frame, const el_stats *stats)
+/* `wire_bytes`: sent to the display for this frame. */
+static void print_stats(uint32_t frame, const el_stats *stats, uint64_t wire_bytes)
 {
     uint32_t values[EL_STATS_COUNT];
     memcpy(values, stats, sizeof values);
@@ -157,7 +165,7 @@ static void print_stats(uint32_t frame, const el_stats *stats)
     for (unsigned i = 0; i < EL_STATS_COUNT; i++) {
         printf(", \"%s\": %u", stat_names[i], values[i]);
     }
-    puts("}");
+    printf(", \"wire_bytes\": %" PRIu64 "}\n", wire_bytes);
 }
 
 static uint32_t crc_of(const uint16_t *values, size_t count)
@@ -203,7 +211,15 @@ static bool write_numbered_png(const char *pattern, uint32_t frame, const el_mac
     return good;
 }
 
-static bool write_frame(const render_options *o, uint32_t frame, el_machine *machine, outputs *out)
+static uint64_t wire_bytes(const el_machine *machine)
+{
+    const el_lcd_bus_traffic *const traffic = &machine->display.bus_state.traffic;
+    return traffic->command_bytes + traffic->pixel_bytes;
+}
+
+/* `sent_before`: wire_bytes when the frame began. */
+static bool write_frame(const render_options *o, uint32_t frame, uint64_t sent_before, el_machine *machine,
+                        outputs *out)
 {
     const size_t pixels = (size_t)machine->picture_width * machine->picture_height;
     if (out->raw.stream != NULL) {
@@ -216,7 +232,7 @@ static bool write_frame(const render_options *o, uint32_t frame, el_machine *mac
         printf("%08x\n", crc_of(machine->picture, pixels));
     }
     if (o->stats) {
-        print_stats(frame, el_frame_stats(&machine->renderer));
+        print_stats(frame, el_frame_stats(&machine->renderer), wire_bytes(machine) - sent_before);
     }
     const bool is_last = frame + 1 == (uint32_t)o->common.frames;
     if (out->png.stream != NULL) {
@@ -244,13 +260,14 @@ static bool render_frames(const render_options *o, const el_subject *subject, el
 {
     machine->renderer.config.view = player->view;
     for (uint32_t frame = 0; frame < (uint32_t)o->common.frames; frame++) {
+        const uint64_t sent_before = wire_bytes(machine);
         const el_status status = subject->scene != NULL ? el_player_play(player, &machine->renderer)
                                                         : el_subject_play(subject, frame, &machine->renderer);
         if (status != EL_OK) {
             el_report("frame %u: %s", frame, el_machine_message(status));
             return false;
         }
-        if (!el_machine_look(machine) || !write_frame(o, frame, machine, out)) {
+        if (!el_machine_look(machine) || !write_frame(o, frame, sent_before, machine, out)) {
             return false;
         }
     }

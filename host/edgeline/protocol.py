@@ -42,6 +42,8 @@ COUNTERS = (
     "clusters_outside",
     "clusters_turned",
     "triangles_skipped",
+    "lines_background",
+    "frames_unchanged",
 )
 """The names of FRAME_END's work counters, in the order of firmware/src/base/stats.h."""
 

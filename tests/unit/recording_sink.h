@@ -1,7 +1,8 @@
 /* A sink that checks the renderer's promises while it records a frame: begin, then every line once from the top to the
  * bottom, then end; and that a band it holds stays as it was handed over.
  *
- * It gives bands back at once, or keeps them until it is waited for, as a DMA does. */
+ * It gives bands back at once, or keeps them until it is waited for, as a DMA does. Asked whether it can do without lines
+ * that are unchanged, it says no, or whatever `answers` has: then what it recorded of them before stands. */
 #ifndef EL_TEST_RECORDING_SINK_H
 #define EL_TEST_RECORDING_SINK_H
 
@@ -9,6 +10,7 @@
 
 #include "base/crc32.h"
 #include "edgeline.h"
+#include "seeded.h"
 #include "unity.h"
 
 enum { RECORD_MAX_PIXELS = 320 * 240, RECORD_MAX_BAND = 64 * 64, RECORD_MAX_HELD = 2 * EL_MAX_WORKERS };
@@ -21,6 +23,8 @@ typedef struct recording {
     uint32_t frames;
     uint32_t bands;
     uint32_t waits;
+    seeded *answers;   /* NULL: no */
+    uint32_t left_out; /* lines, of all frames */
     el_stats stats;
     uint16_t pixels[RECORD_MAX_PIXELS];
     uint16_t depth[RECORD_MAX_PIXELS];
@@ -89,12 +93,30 @@ static inline void record_rows(void *context, el_band *band, unsigned slot)
     r->held_count++;
 }
 
+static inline bool record_unchanged(void *context, uint16_t y, uint16_t lines)
+{
+    recording *const r = context;
+    TEST_ASSERT_TRUE_MESSAGE(r->in_frame, "asked outside a frame");
+    TEST_ASSERT_GREATER_THAN_UINT32_MESSAGE(0, r->frames, "asked before it had a frame");
+    TEST_ASSERT_EQUAL_UINT16_MESSAGE(r->next_line, y, "asked for other lines than the next ones");
+    TEST_ASSERT_GREATER_THAN_UINT16(0, lines);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(r->height, (uint32_t)y + lines);
+    if (r->answers == NULL || any_below(r->answers, 4) == 0) {
+        return false;
+    }
+    r->next_line = (uint16_t)(y + lines);
+    r->left_out += lines;
+    return true;
+}
+
 static inline void record_end(void *context, const el_stats *stats)
 {
     recording *const r = context;
     TEST_ASSERT_TRUE_MESSAGE(r->in_frame, "end outside a frame");
     TEST_ASSERT_EQUAL_UINT16_MESSAGE(r->height, r->next_line, "the frame ended early");
-    TEST_ASSERT_EQUAL_UINT32(r->bands, stats->bands);
+    if (r->answers == NULL) {
+        TEST_ASSERT_EQUAL_UINT32(r->bands, stats->bands);
+    }
     r->stats = *stats;
     r->in_frame = false;
     r->frames++;
@@ -111,7 +133,12 @@ static inline void record_wait(void *context)
 
 static inline el_sink recording_sink(recording *r)
 {
-    return (el_sink){.context = r, .begin = record_begin, .rows = record_rows, .end = record_end, .wait = record_wait};
+    return (el_sink){.context = r,
+                     .begin = record_begin,
+                     .rows = record_rows,
+                     .unchanged = record_unchanged,
+                     .end = record_end,
+                     .wait = record_wait};
 }
 
 /* What is still held is looked at once more and given back. */

@@ -312,12 +312,12 @@ static void expect_transfer(const el_bus *bus, el_byte_order order, const char *
     TEST_ASSERT_EQUAL_INT(EL_OK, el_tft_init(&panel, &config));
     const el_sink sink = el_tft_sink(&panel);
     el_band band;
-    sink.begin(sink.context, 240, 320);
-    panel_bus_lend(&sink, &band, pixels[0], 240, 0, 1, 0);
+    sink.begin(sink.context, 1, 320); /* one pixel a line, so that it can be read */
+    panel_bus_lend(&sink, &band, pixels[0], 1, 0, 1, 0);
     panel_bus_forget();
     panel_bus.shows = true;
     pixels[0][0] = 0xABCD;
-    panel_bus_lend(&sink, &band, pixels[0], 1, 1, 1, 0); /* one pixel, so that it can be read */
+    panel_bus_lend(&sink, &band, pixels[0], 1, 1, 1, 0);
     panel_bus.shows = false;
     panel_bus_expect(transfer);
 }
@@ -335,6 +335,179 @@ static void test_byte_order_for_each_kind_of_bus(void)
     expect_transfer(&words, EL_LOW_BYTE_FIRST, "p1[CDAB] ");
     expect_transfer(&bytes, EL_HIGH_BYTE_FIRST, "b2[AB,CD] ");
     expect_transfer(&bytes, EL_LOW_BYTE_FIRST, "b2[CD,AB] ");
+}
+
+/* --- What the display shows already -------------------------------------------------------------------------------- */
+
+enum { GLASS_WIDTH = 320, GLASS_HEIGHT = 24 };
+
+static uint16_t picture[GLASS_HEIGHT][GLASS_WIDTH];
+static uint32_t shown[EL_TFT_SHOWN_BYTES(GLASS_WIDTH, GLASS_HEIGHT) / 4];
+
+/* A display of 320x24 that shows `picture`, its lines 20 to 23 being those that the frame after has in turn: 0 to 3. */
+static el_sink start_sparing(void)
+{
+    static el_tft_model model;
+    model = el_ili9341;
+    model.memory_rows = model.rows = GLASS_WIDTH;
+    model.memory_columns = model.columns = GLASS_HEIGHT;
+    const el_tft_config config = {.bus = &panel_bus_functions,
+                                  .model = &model,
+                                  .rotation = EL_ROTATION_90,
+                                  .shown = shown,
+                                  .shown_bytes = sizeof shown};
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_tft_init(&panel, &config));
+    memset(picture, 0x5A, sizeof picture);
+    return el_tft_sink(&panel);
+}
+
+/* In bands of 8 lines; those of `left_out`'s bits are offered as unchanged. */
+static void show(const el_sink *sink, unsigned left_out)
+{
+    static uint16_t band_pixels[8 * GLASS_WIDTH];
+    el_band band;
+    sink->begin(sink->context, GLASS_WIDTH, GLASS_HEIGHT);
+    for (uint16_t y = 0; y < GLASS_HEIGHT; y = (uint16_t)(y + 8)) {
+        if ((left_out >> y / 8 & 1U) != 0 && sink->unchanged(sink->context, y, 8)) {
+            continue;
+        }
+        memcpy(band_pixels, picture[y], sizeof band_pixels);
+        panel_bus_lend(sink, &band, band_pixels, GLASS_WIDTH, y, 8, 0);
+        TEST_ASSERT_EQUAL_UINT8(0, band.held[0]);
+    }
+    sink->end(sink->context, &(el_stats){0});
+}
+
+#define WHOLE "2A:00,00,01,3F 2B:00,00,00,17 2C p2560 p2560 p2560 "
+
+/* Frame by frame four lines in turn; here six frames are once around. */
+static void test_what_is_shown_is_not_sent_but_four_lines_in_turn(void)
+{
+    const el_sink sink = start_sparing();
+    panel_bus_forget();
+    show(&sink, 0);
+    panel_bus_expect(WHOLE);
+    TEST_ASSERT_EQUAL_UINT32(0, panel.pixels_kept);
+    static const char *const turns[] = {"08", "0C", "10", "14", "00", "04"};
+    for (unsigned frame = 0; frame < 12; frame++) {
+        char expected[64];
+        snprintf(expected, sizeof expected, "2A:00,00,01,3F 2B:00,%s,00,17 2C p1280 ", turns[frame % 6]);
+        show(&sink, frame % 2 == 0 ? 0 : 7);
+        panel_bus_expect(expected);
+        TEST_ASSERT_EQUAL_UINT32(GLASS_WIDTH * (GLASS_HEIGHT - 4), panel.pixels_kept);
+    }
+}
+
+/* A rectangle of segments in each band; the next one goes on in the same columns without a command. The lines in turn,
+ * 8 to 11, are whole. */
+static void test_rectangles_of_what_has_changed_are_sent(void)
+{
+    const el_sink sink = start_sparing();
+    show(&sink, 0);
+    panel_bus_forget();
+    picture[1][40] = 1;
+    picture[3][70] = 2;
+    picture[16][33] = 3;
+    picture[23][319] = 4;
+    show(&sink, 0);
+    panel_bus_expect("2A:00,20,00,5F 2B:00,01,00,17 2C p192 "
+                     "2A:00,00,01,3F 2B:00,08,00,17 2C p1280 "
+                     "2A:00,20,01,3F 2B:00,10,00,17 2C p2304 ");
+    TEST_ASSERT_EQUAL_UINT32(GLASS_WIDTH * GLASS_HEIGHT - 192 - 1280 - 2304, panel.pixels_kept);
+    show(&sink, 0); /* lines 12 to 15 */
+    panel_bus_forget();
+    picture[0][0] = picture[7][31] = 5;
+    picture[8][0] = picture[10][31] = 6;
+    show(&sink, 0);
+    panel_bus_expect("2A:00,00,00,1F 2B:00,00,00,17 2C p256 p96 "
+                     "2A:00,00,01,3F 2B:00,10,00,17 2C p1280 ");
+}
+
+/* The picture of a changed segment is what goes out, packed. */
+static void test_the_pixels_that_are_sent_are_those_that_changed(void)
+{
+    const el_sink sink = start_sparing();
+    show(&sink, 0);
+    show(&sink, 0); /* 8 to 11 */
+    panel_bus_forget();
+    picture[2][64] = 0x1111;
+    picture[3][95] = 0x2222;
+    panel_bus.shows = true;
+    show(&sink, 6);
+    panel_bus.shows = false;
+    char expected[64 * 5 + 64] = "2A:00,40,00,5F 2B:00,02,00,17 2C p64[";
+    for (unsigned i = 0; i < 64; i++) {
+        strcat(expected, i == 0 ? "1111" : i == 63 ? ",2222" : ",5A5A");
+    }
+    strcat(expected, "] ");
+    TEST_ASSERT_EQUAL_STRING_LEN(expected, panel_bus.journal, strlen(expected));
+}
+
+/* A picture that stands still costs nothing, except that it is sent whole from time to time. */
+static void test_a_still_picture_is_sent_whole_from_time_to_time(void)
+{
+    const el_sink sink = start_sparing();
+    show(&sink, 0);
+    panel_bus_forget();
+    unsigned whole = 0;
+    for (unsigned frame = 0; frame < 3 * EL_TFT_STILL_FRAMES; frame++) {
+        sink.begin(sink.context, GLASS_WIDTH, GLASS_HEIGHT);
+        if (sink.unchanged(sink.context, 0, GLASS_HEIGHT)) {
+            TEST_ASSERT_EQUAL_UINT32(GLASS_WIDTH * GLASS_HEIGHT, panel.pixels_kept);
+            sink.end(sink.context, &(el_stats){0});
+            panel_bus_expect("");
+            continue;
+        }
+        whole++;
+        for (uint16_t y = 0; y < GLASS_HEIGHT; y = (uint16_t)(y + 8)) {
+            el_band band;
+            TEST_ASSERT_FALSE(sink.unchanged(sink.context, y, 8));
+            panel_bus_lend(&sink, &band, picture[y], GLASS_WIDTH, y, 8, 0);
+        }
+        panel_bus_expect(WHOLE);
+    }
+    TEST_ASSERT_EQUAL_UINT(3, whole);
+}
+
+static void test_a_display_that_may_show_anything_gets_all(void)
+{
+    const el_sink sink = start_sparing();
+    show(&sink, 0);
+    show(&sink, 0);
+    panel_bus_forget();
+    el_tft_forget(&panel);
+    show(&sink, 7);
+    panel_bus_expect(WHOLE);
+    show(&sink, 7);
+    TEST_ASSERT_EQUAL_UINT32(GLASS_WIDTH * (GLASS_HEIGHT - 4), panel.pixels_kept);
+    panel_bus_forget();
+    sink.begin(sink.context, GLASS_WIDTH, GLASS_HEIGHT - 1); /* made black, then sent whole */
+    panel_bus_forget();
+    TEST_ASSERT_FALSE(sink.unchanged(sink.context, 0, 8));
+    show(&sink, 7);
+    panel_bus_expect(WHOLE);
+}
+
+/* Without memory for hashes bands go out whole, but not those of which the renderer says that they are unchanged. */
+static void test_without_hashes_what_is_unchanged_is_not_sent(void)
+{
+    el_sink sink = start_sparing();
+    panel.config.shown = NULL;
+    show(&sink, 7);
+    panel_bus_forget();
+    show(&sink, 5); /* in turn: 8 to 11 */
+    panel_bus_expect("2A:00,00,01,3F 2B:00,08,00,17 2C p2560 ");
+    show(&sink, 0);
+    panel_bus_expect(WHOLE);
+}
+
+static void test_too_little_memory_for_hashes_is_refused(void)
+{
+    const el_tft_config config = {
+        .bus = &panel_bus_functions, .model = &el_st7735, .shown = shown, .shown_bytes = 4 * 4 * 160 - 1};
+    panel_bus_forget();
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_MEMORY, el_tft_init(&panel, &config));
+    panel_bus_expect("");
 }
 
 int main(void)
@@ -355,5 +528,12 @@ int main(void)
     RUN_TEST(test_deferred_transfers_release_their_own_band);
     RUN_TEST(test_a_bus_without_wait);
     RUN_TEST(test_byte_order_for_each_kind_of_bus);
+    RUN_TEST(test_what_is_shown_is_not_sent_but_four_lines_in_turn);
+    RUN_TEST(test_rectangles_of_what_has_changed_are_sent);
+    RUN_TEST(test_the_pixels_that_are_sent_are_those_that_changed);
+    RUN_TEST(test_a_still_picture_is_sent_whole_from_time_to_time);
+    RUN_TEST(test_a_display_that_may_show_anything_gets_all);
+    RUN_TEST(test_without_hashes_what_is_unchanged_is_not_sent);
+    RUN_TEST(test_too_little_memory_for_hashes_is_refused);
     return UNITY_END();
 }

@@ -45,14 +45,19 @@ static inline bool el_band_is_free(const el_band *band)
     return true;
 }
 
-/* All four functions get `context`. For each frame: begin, then rows for bands from the top to the bottom without a
- * gap, then end. */
+/* All functions get `context`. For each frame: begin, then rows or unchanged for bands from the top to the bottom without
+ * a gap, then end. */
 typedef struct el_sink {
     void *context;
     /* A frame of width x height pixels starts. */
     void (*begin)(void *context, uint16_t width, uint16_t height);
     /* Takes `band`; the sink owns it until el_band_release(band, slot). */
     void (*rows)(void *context, el_band *band, unsigned slot);
+    /* Lines [y, y + lines) have the pixels that they had in the frame before, whichever way this sink got those, or did
+     * not. True: it does without them, `rows` is not called for them; false, and always when it had no frame before: it
+     * gets them by `rows` as ever. Asked for the whole frame first, if that is unchanged, and perhaps for some of its bands
+     * after the answer false; or for single bands. NULL: as false. */
+    bool (*unchanged)(void *context, uint16_t y, uint16_t lines);
     /* The frame's last band has been handed over (it may still be on its way). */
     void (*end)(void *context, const el_stats *stats);
     /* Called again and again while the renderer waits for a band: drive the transfer, or sleep until an interrupt.

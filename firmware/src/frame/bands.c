@@ -3,6 +3,7 @@
 #include "base/fill.h"
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
+#include "frame/quiet.h"
 
 /* What is carried, see painter.h. */
 typedef struct carried_state {
@@ -76,10 +77,10 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
 void el_bands_hand_over(el_renderer *renderer, el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        band->held[i] = renderer->config.sinks[i] != NULL;
+        band->held[i] = el_quiet_taker(renderer, i) != NULL;
     }
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        const el_sink *const sink = renderer->config.sinks[i];
+        const el_sink *const sink = el_quiet_taker(renderer, i);
         if (sink != NULL) {
             sink->rows(sink->context, band, i);
         }
@@ -196,6 +197,10 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
     el_painter_begin(painter, &renderer->list, renderer->list.used, renderer->list.end, &renderer->stats);
     for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
         el_band *const buffer = &painter->bands[painter->current];
+        const bool is_empty = !painter->band_is_open && painter->carrying.first == 0 && renderer->list.bins[band] == 0;
+        if (hand_over_bands && el_quiet_leaves_out(renderer, band, is_empty)) {
+            continue;
+        }
         while (!painter->band_is_open && !el_band_is_free(buffer)) {
             el_bands_wait_for_sinks(renderer, buffer);
         }

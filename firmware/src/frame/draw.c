@@ -5,6 +5,7 @@
 #include "frame/bands.h"
 #include "frame/cull.h"
 #include "frame/debug_hooks.h"
+#include "frame/quiet.h"
 #include "geometry/clip.h"
 #include "geometry/cluster.h"
 
@@ -588,9 +589,13 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return status;
     }
     el_count(&renderer->stats.draws, 1);
+    if (el_quiet_looks_at(renderer, mesh, pose, material)) {
+        return EL_OK;
+    }
     drawing d = {.renderer = renderer, .mesh = mesh};
     const int visibility = el_transform_make(&d.state.transform, &renderer->view, mesh, pose);
     if (visibility < 0) {
+        el_quiet_refuse(renderer);
         return (el_status)visibility;
     }
     if (visibility == EL_CULLED) {

@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "frame/bands.h"
 #include "frame/debug_hooks.h"
+#include "frame/quiet.h"
 
 _Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_BYTES counts with");
 _Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,
@@ -97,6 +98,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     }
     memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
+    el_quiet_begin(renderer);
     begin_pass(renderer, 0);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
@@ -107,10 +109,30 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     return EL_OK;
 }
 
+static int end_frame(el_renderer *renderer)
+{
+    el_quiet_end(renderer);
+    renderer->in_frame = 0;
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        const el_sink *const sink = renderer->config.sinks[i];
+        if (sink != NULL) {
+            sink->end(sink->context, &renderer->stats);
+        }
+    }
+    return 0;
+}
+
 int el_frame_next(el_renderer *renderer)
 {
     if (renderer == NULL || !renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
+    }
+    if (renderer->quiet.looks) {
+        if (el_quiet_is_unchanged(renderer)) {
+            return end_frame(renderer);
+        }
+        begin_pass(renderer, 0);
+        return 1;
     }
     el_bands_finish(renderer);
 
@@ -124,14 +146,7 @@ int el_frame_next(el_renderer *renderer)
     if (renderer->pass_begin == 0) {
         renderer->pass_bands = renderer->band_count;
     }
-    renderer->in_frame = 0;
-    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        const el_sink *const sink = renderer->config.sinks[i];
-        if (sink != NULL) {
-            sink->end(sink->context, &renderer->stats);
-        }
-    }
-    return 0;
+    return end_frame(renderer);
 }
 
 const el_stats *el_frame_stats(const el_renderer *renderer)

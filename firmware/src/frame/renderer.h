@@ -85,15 +85,28 @@ enum {
                     : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES) +             \
                           (2U * (workers)-1U) * EL_DEPTH_BAND_BYTES(width, band_lines))
 
+/* What of the frame before need not be made again; bits of el_config.reuse. The renderer's sinks must get frames from no
+ * other one, and only sinks that can do without unchanged lines (el_sink.unchanged) save anything. */
+enum {
+    /* Bands without a triangle, in the frame before too, are neither cleared nor handed over. */
+    EL_REUSE_BACKGROUND = 1,
+    /* A frame whose camera, meshes, poses and materials are those of the frame before is not drawn. To find that out takes
+     * a pass of its own, in which el_draw looks only at what it is given: the values of structures (el_mesh, el_material,
+     * el_texture, el_light ...), but not the arrays that they name. A program that changes vertices or texels in place
+     * says so by el_frame_forget. Two frames are taken for the same by mistake with a probability of 2^-32. */
+    EL_REUSE_FRAME = 2
+};
+
 /* What its pointers name must outlive the renderer. */
 typedef struct el_config {
     uint16_t width;        /* pixels, 1..EL_MAX_WIDTH */
     uint16_t height;       /* lines, 1..EL_MAX_HEIGHT */
     uint16_t band_lines;   /* lines per band, 1..height */
-    uint16_t background;   /* RGB565; may be changed in the renderer between frames; so may be the next three */
+    uint16_t background;   /* RGB565; may be changed in the renderer between frames; so may be the next four */
     uint8_t uv_error_log2; /* texture coordinates are within 2^-uv_error_log2 texels, 1..5; for el_init 0 is 3, 1/8 */
     uint8_t view;          /* el_debug_view */
     uint8_t shading_off;   /* bits of el_shading that no surface uses, see debug_view.h */
+    uint8_t reuse;         /* EL_REUSE_, 0: every frame is made anew */
     void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
@@ -105,6 +118,21 @@ typedef struct el_worker {
     el_painter painter;
     el_stats stats; /* what it did in this pass */
 } el_worker;
+
+/* What is known of the frame before (quiet.h). */
+typedef struct el_quiet {
+    uint8_t known;          /* EL_REUSE_ bits that the frame before allows */
+    uint8_t takers;         /* a bit for each sink that takes the bands of this frame, ... */
+    uint8_t band_takers;    /* ... and of the band that is handed over */
+    uint8_t looks;          /* this pass only looks at what is submitted */
+    uint8_t refused;        /* a draw of this frame had an error */
+    uint8_t group_log2;     /* bands that share a bit in the next two */
+    uint16_t background;    /* of the frame before */
+    uint32_t drawn;         /* groups of bands with triangles, of this frame ... */
+    uint32_t was_drawn;     /* ... and of the one before */
+    uint32_t submitted;     /* a hash, of this frame ... */
+    uint32_t was_submitted; /* ... and of the one before */
+} el_quiet;
 
 /* Owned by the caller; its members are the renderer's. Small ones come first: Thumb code reaches them at once there. */
 typedef struct el_renderer {
@@ -125,6 +153,7 @@ typedef struct el_renderer {
     el_stats stats;
     el_painter painter; /* of the caller's core */
     el_worker *others;  /* of the others, in the arena */
+    el_quiet quiet;
     el_view view;
 } el_renderer;
 
@@ -145,6 +174,10 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
 /* Draws and hands over the bands of this pass. Returns 1 when the frame needs another pass: submit everything again, in
  * the same order. Returns 0 when the frame is done, and a negative el_status outside a frame. */
 int el_frame_next(el_renderer *renderer);
+
+/* Says that what the pointers of meshes or materials name has changed: the next frame is drawn, whatever el_config.reuse
+ * is. Between frames. */
+void el_frame_forget(el_renderer *renderer);
 
 /* The counters of the frame under way, or of the last one. */
 const el_stats *el_frame_stats(const el_renderer *renderer);

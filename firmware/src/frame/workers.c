@@ -13,6 +13,7 @@
 #include "base/fixed.h"
 #include "frame/bands.h"
 #include "frame/debug_hooks.h"
+#include "frame/quiet.h"
 
 #if EL_WITH_WORKERS
 
@@ -74,6 +75,7 @@ static uint16_t hand_over_complete(el_renderer *renderer, uint16_t band)
         if (handed == load(&painter->drawn)) {
             break;
         }
+        (void)el_quiet_leaves_out(renderer, band, false); /* each is drawn */
         el_bands_hand_over(renderer, &painter->bands[(painter->first + handed) & 1U]);
         store(&painter->handed, (uint16_t)(handed + 1U));
         band++;

@@ -96,6 +96,11 @@ static uint8_t *unit_at(const el_oled *panel, unsigned buffer_index, unsigned un
     return buffer(panel, buffer_index) + (size_t)place * panel->unit_bytes;
 }
 
+static unsigned frame_units(const el_oled *panel)
+{
+    return ((panel->height - 1U) >> panel->lines_log2) + 1U;
+}
+
 /* Sends the finished units; the one that is begun moves to the other buffer. */
 static void flush(el_oled *panel)
 {
@@ -109,7 +114,10 @@ static void flush(el_oled *panel)
         /* Below what was sent before, so each run needs its window. */
         const unsigned glass_units = (unsigned)el_oled_height(panel) >> panel->lines_log2;
         set_units(panel, glass_units - end, glass_units - panel->unit);
+    } else if (panel->moved) {
+        set_units(panel, panel->unit, frame_units(panel));
     }
+    panel->moved = false;
     send_buffer(panel, unit_at(panel, from, panel->lie.y_reversed ? panel->units - 1U : 0),
                 (size_t)panel->units * panel->unit_bytes);
     panel->unit = (uint8_t)end;
@@ -190,9 +198,12 @@ static void begin(void *context, uint16_t width, uint16_t height)
     panel->unit = 0;
     panel->units = 0;
     panel->begun = false;
+    panel->moved = false;
+    panel->turn = (uint8_t)((panel->turn + 1U) % EL_OLED_WHOLE_FRAMES);
+    panel->whole = changed || panel->turn == 0;
     set_bytes(panel, first_byte, end_byte);
     if (!panel->lie.y_reversed) {
-        set_units(panel, 0, ((height - 1U) >> panel->lines_log2) + 1U);
+        set_units(panel, 0, frame_units(panel));
     }
 }
 
@@ -219,6 +230,24 @@ static void rows(void *context, el_band *band, unsigned slot)
     }
 }
 
+static bool unchanged(void *context, uint16_t y, uint16_t lines)
+{
+    el_oled *const panel = context;
+    const unsigned last_of_unit = (1U << panel->lines_log2) - 1U;
+    const unsigned next = (unsigned)y + lines;
+    if (!panel->fits) {
+        return true;
+    }
+    if (panel->whole || panel->begun || (y & last_of_unit) != 0 ||
+        ((next & last_of_unit) != 0 && next < panel->height)) {
+        return false;
+    }
+    /* `rows` has sent what it had. */
+    panel->unit = (uint8_t)(((next - 1U) >> panel->lines_log2) + 1U);
+    panel->moved = true;
+    return true;
+}
+
 static void end(void *context, const el_stats *stats)
 {
     (void)context;
@@ -233,7 +262,7 @@ static void wait(void *context)
 
 el_sink el_oled_sink(el_oled *panel)
 {
-    return (el_sink){.context = panel, .begin = begin, .rows = rows, .end = end, .wait = wait};
+    return (el_sink){.context = panel, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
 }
 
 /* --- Start -------------------------------------------------------------------------------------------------------- */

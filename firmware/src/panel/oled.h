@@ -8,6 +8,10 @@
  * Rotation and mirroring are done by the place that each pixel gets in memory and by the order of lines, not by the
  * controller's remapping: that depends on the module's wiring, and emulators leave it out.
  *
+ * Lines of which the renderer knows that they are unchanged (el_sink.unchanged) are not dithered and not sent, where they
+ * are whole units; one of EL_OLED_WHOLE_FRAMES frames is sent whole all the same, so that a display that was disturbed is
+ * right again. There are no hashes as colour panels have them: a frame has at most 4 KB, and the dithering costs more.
+ *
  * The controllers are models: ssd1306.h, ssd0323.h. A frame may be smaller than the glass: it is the upper left part of
  * it, and the rest is made black before the first such frame. */
 #ifndef EL_PANEL_OLED_H
@@ -60,6 +64,8 @@ typedef struct el_oled_config {
     size_t memory_bytes;
 } el_oled_config;
 
+enum { EL_OLED_WHOLE_FRAMES = 32 };
+
 /* Owned by the caller; its members are the driver's.
  *
  * A unit is what the fewest whole lines fill: 1 line, or the lines that share bytes. */
@@ -77,6 +83,9 @@ typedef struct el_oled {
     uint8_t units;            /* in this buffer, finished */
     uint8_t capacity;         /* units that a buffer takes */
     uint8_t filling;          /* the buffer that is being filled: 0 or 1; it is not on the wire */
+    uint8_t turn;             /* frames since the last one that was sent whole */
+    bool whole;               /* this frame is sent whole */
+    bool moved;               /* units were left out: the controller expects others than the next */
     bool begun;               /* the unit after the finished ones has a line */
     volatile bool sending[2]; /* on the wire; cleared by the bus, perhaps in an interrupt */
 } el_oled;

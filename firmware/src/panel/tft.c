@@ -102,7 +102,11 @@ el_status el_tft_init(el_tft *panel, const el_tft_config *config)
     }
     const el_bus *const bus = config->bus;
     const el_tft_model *const model = config->model;
-    *panel = (el_tft){.config = *config, .lie = el_panel_orientation(config->rotation, config->mirrored != 0)};
+    *panel = (el_tft){
+        .config = *config, .lie = el_panel_orientation(config->rotation, config->mirrored != 0), .stale = true};
+    if (config->shown != NULL && config->shown_bytes < EL_TFT_SHOWN_BYTES(el_tft_width(panel), el_tft_height(panel))) {
+        return EL_ERROR_MEMORY;
+    }
     const uint8_t access = memory_access(panel);
     place_glass(panel, access);
     choose_transfer(panel);
@@ -122,6 +126,11 @@ el_status el_tft_init(el_tft *panel, const el_tft_config *config)
     return EL_OK;
 }
 
+void el_tft_forget(el_tft *panel)
+{
+    panel->stale = true;
+}
+
 static void set_range(const el_bus *bus, uint8_t code, unsigned begin, unsigned end)
 {
     /* The controller's ranges include their last element. */
@@ -130,9 +139,9 @@ static void set_range(const el_bus *bus, uint8_t code, unsigned begin, unsigned 
     send(bus, code, range, sizeof range);
 }
 
-static void set_columns(const el_tft *panel, unsigned width)
+static void set_columns(const el_tft *panel, unsigned left, unsigned right)
 {
-    set_range(panel->config.bus, CMD_COLUMN_ADDRESS, panel->first_x, panel->first_x + width);
+    set_range(panel->config.bus, CMD_COLUMN_ADDRESS, panel->first_x + left, panel->first_x + right);
 }
 
 static void start_writing(const el_tft *panel, unsigned line, unsigned height)
@@ -163,7 +172,7 @@ static void blacken(const el_tft *panel)
     static const uint16_t black[BLACK_PIXELS];
     const unsigned width = el_tft_width(panel);
     const unsigned height = el_tft_height(panel);
-    set_columns(panel, width);
+    set_columns(panel, 0, width);
     start_writing(panel, 0, height);
     for (size_t left = (size_t)width * height; left > 0;) {
         const size_t count = left < BLACK_PIXELS ? left : BLACK_PIXELS;
@@ -185,6 +194,13 @@ static void begin(void *context, uint16_t width, uint16_t height)
     panel->width = width;
     panel->height = height;
     panel->next_line = NO_LINE;
+    panel->pixels_kept = 0;
+    panel->whole = panel->stale || changed;
+    panel->stale = false;
+    panel->refresh = (uint16_t)(panel->refresh + EL_TFT_REFRESH_LINES);
+    if (panel->refresh >= height) {
+        panel->refresh = 0;
+    }
 }
 
 static void swap_bytes(uint16_t *pixels, size_t count)
@@ -200,6 +216,47 @@ static void sent(void *argument)
     el_band_release(loan->band, loan->slot);
 }
 
+/* The lines of a band, counted from its first, that are sent whatever they show; empty where top is not above bottom. */
+static void find_due(const el_tft *panel, unsigned y, unsigned lines, unsigned *top, unsigned *bottom)
+{
+    const unsigned end = (unsigned)panel->refresh + EL_TFT_REFRESH_LINES;
+    *top = panel->whole || panel->refresh < y ? 0 : panel->refresh - y;
+    *bottom = panel->whole || end >= y + lines ? lines : (end > y ? end - y : 0);
+}
+
+/* What of a band is sent. */
+static el_shown_part find_part(const el_tft *panel, const el_band *band)
+{
+    el_shown_part part = {0};
+    unsigned top = 0;
+    unsigned bottom = band->lines;
+    if (panel->config.shown != NULL) {
+        uint32_t *const hashes = panel->config.shown + (size_t)band->y * EL_SHOWN_SEGMENTS(band->width);
+        part = el_shown_update(hashes, band->pixels, band->width, band->lines);
+        find_due(panel, band->y, band->lines, &top, &bottom);
+    }
+    if (top < bottom) {
+        el_shown_add_lines(&part, band->width, top, bottom);
+    }
+    return part;
+}
+
+/* A window reaches to the frame's last line, so that a part below the last one, with the same columns, continues it without
+ * a command. Windows do not outlive a frame: a display that was disturbed takes the next one's. */
+static void set_window(el_tft *panel, unsigned y, const el_shown_part *part)
+{
+    if (panel->next_line == NO_LINE || part->left != panel->left || part->right != panel->right) {
+        set_columns(panel, part->left, part->right);
+        panel->left = part->left;
+        panel->right = part->right;
+        panel->next_line = NO_LINE;
+    }
+    if (y + part->top != panel->next_line) {
+        start_writing(panel, y + part->top, panel->height);
+    }
+    panel->next_line = (uint16_t)(y + part->bottom);
+}
+
 static void rows(void *context, el_band *band, unsigned slot)
 {
     el_tft *const panel = context;
@@ -207,25 +264,45 @@ static void rows(void *context, el_band *band, unsigned slot)
         el_band_release(band, slot);
         return;
     }
-    /* The window is set once per frame even if it is that of the last one: a display that was disturbed (a spike on a
-     * wire) is right again a frame later, for 11 bytes. Within a frame only lines that were left out need a new one. */
-    if (panel->next_line == NO_LINE) {
-        set_columns(panel, panel->width);
+    const el_shown_part part = find_part(panel, band);
+    const size_t count = ((size_t)part.right - part.left) * ((size_t)part.bottom - part.top);
+    panel->pixels_kept += (uint32_t)((size_t)band->lines * band->width - count);
+    if (count == 0) {
+        el_band_release(band, slot);
+        return;
     }
-    if (band->y != panel->next_line) {
-        start_writing(panel, band->y, panel->height);
-    }
-    panel->next_line = (uint16_t)(band->y + band->lines);
-
     /* The bus may still be sending the other band, so each has its own entry. */
     struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
     panel->next_loan ^= 1U;
     *loan = (struct el_tft_loan){.band = band, .slot = slot};
-    const size_t count = (size_t)band->lines * band->width;
+    uint16_t *const pixels = el_shown_pack(band->pixels, band->width, &part);
     if (panel->swap) {
-        swap_bytes(band->pixels, count);
+        swap_bytes(pixels, count);
     }
-    send_pixels(panel, band->pixels, count, sent, loan);
+    set_window(panel, band->y, &part); /* waits for the band on its way, so it comes last */
+    send_pixels(panel, pixels, count, sent, loan);
+}
+
+/* One long transfer more or less is not seen in a picture that stands still, so that is sent whole from time to time; one
+ * that moves would stumble. */
+static bool unchanged(void *context, uint16_t y, uint16_t lines)
+{
+    el_tft *const panel = context;
+    if (!panel->fits) {
+        return true;
+    }
+    if (lines == panel->height && !panel->whole) {
+        panel->still = (uint8_t)((panel->still + 1U) % EL_TFT_STILL_FRAMES);
+        panel->whole = panel->still == 0;
+    }
+    unsigned top;
+    unsigned bottom;
+    find_due(panel, y, lines, &top, &bottom);
+    if (panel->whole || (top < bottom && lines < panel->height)) {
+        return false;
+    }
+    panel->pixels_kept += (uint32_t)lines * panel->width;
+    return true;
 }
 
 static void end(void *context, const el_stats *stats)
@@ -242,5 +319,5 @@ static void wait(void *context)
 
 el_sink el_tft_sink(el_tft *panel)
 {
-    return (el_sink){.context = panel, .begin = begin, .rows = rows, .end = end, .wait = wait};
+    return (el_sink){.context = panel, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
 }

@@ -150,6 +150,18 @@ static void rows(void *context, el_band *band, unsigned slot)
     el_band_release(band, slot);
 }
 
+/* A frame that is not sent needs no lines: the next one that is has its lines compared with what was sent. */
+static bool unchanged(void *context, uint16_t y, uint16_t lines)
+{
+    el_stream *stream = context;
+    (void)y;
+    (void)lines;
+    if (stream->rate.changing) {
+        el_stream_poll(stream);
+    }
+    return !stream->frame.sending;
+}
+
 /* --- End ---------------------------------------------------------------------------------------------------------- */
 
 /* Lines that START or KEY asked for and that are still to be sent. */
@@ -254,5 +266,5 @@ static void wait(void *context)
 
 el_sink el_stream_sink(el_stream *stream)
 {
-    return (el_sink){.context = stream, .begin = begin, .rows = rows, .end = end, .wait = wait};
+    return (el_sink){.context = stream, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
 }

@@ -46,6 +46,8 @@ _LABELS = {
     "rows": "rows walked",
     "flushes": "early flushes",
     "memory_peak": "memory peak, bytes",
+    "lines_background": "lines of background left out",
+    "frames_unchanged": "unchanged, not drawn",
 }
 """What the panel calls a counter of firmware/src/base/stats.h, where its own name does not say it."""
 

@@ -1,0 +1,56 @@
+"""Frames that follow each other: what it saves to leave out what has not changed, on each core and on the display's bus."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .frames import Verdicts
+from .machines import CORES, BenchError, Machines
+
+WIRE_BYTES_PER_S = 62.5e6 / 8
+"""Of the Pico's SPI."""
+
+
+@dataclass(frozen=True)
+class Still:
+    """The second of two frames. `way`: what is left out."""
+
+    scene: str
+    way: str
+    bus_bytes: int
+    instructions: dict[str, int]
+
+
+def measure(machines: Machines, verdicts: Verdicts) -> list[Still]:
+    """All scenes, on all cores; what goes over the bus must be the same on each, and on this computer."""
+    native = [line for line in machines.native("still") if line.words[0] != "empty"]
+    counts: dict[str, list[int]] = {}
+    for core in CORES:
+        found = machines.target(core, "still")
+        if len(found) != len(native):
+            raise BenchError(f"{core} drew {len(found)} frames, this computer {len(native)}")
+        counts[core] = [one.instructions for one in found]
+        for here, there in zip(native, found, strict=True):
+            verdicts.check(there.line == here, f"{core} sends {there.line}, this computer {here}")
+    return [
+        Still(
+            line.words[0],
+            line.words[1].replace(",", ", "),
+            int(line.values["bytes"]),
+            {core: counts[core][index] for core in CORES},
+        )
+        for index, line in enumerate(native)
+    ]
+
+
+def table(frames: list[Still]) -> str:
+    """A Markdown table."""
+    lines = [
+        "| scene | sent or left out | Cortex-M0+ | Cortex-M4F | bytes on the bus | ms at 62.5 MHz |",
+        "|---|---|---|---|---|---|",
+    ]
+    for frame in frames:
+        counts = " | ".join(f"{frame.instructions[core] / 1e6:.3f} M" for core in CORES)
+        ms = frame.bus_bytes / WIRE_BYTES_PER_S * 1e3
+        lines.append(f"| {frame.scene} | {frame.way} | {counts} | {frame.bus_bytes:,} | {ms:.1f} |")
+    return "\n".join(lines)
