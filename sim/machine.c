@@ -84,17 +84,15 @@ static el_display_config choose_display(const el_machine_config *config)
 static bool open_renderer(el_machine *machine)
 {
     const el_machine_config *const config = &machine->config;
-    machine->depth_sink = (el_sink){.context = machine,
-                                    .begin = depth_begin,
-                                    .rows = depth_rows,
-                                    .unchanged = depth_unchanged,
-                                    .end = depth_end};
+    machine->depth_sink = (el_sink){
+        .context = machine, .begin = depth_begin, .rows = depth_rows, .unchanged = depth_unchanged, .end = depth_end};
     const el_config renderer_config = {
         .width = config->width,
         .height = config->height,
         .band_lines = config->band_lines,
         .background = config->background,
         .uv_error_log2 = config->uv_error_log2,
+        .depth_prepass = config->depth_prepass,
         .reuse = config->sparing ? EL_REUSE_BACKGROUND | EL_REUSE_FRAME : 0,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,

@@ -72,7 +72,8 @@ static bool parse(int argc, char **argv, render_options *o)
         PAN_Y,
         CRC,
         STATS,
-        SPARING
+        SPARING,
+        DEPTH_PREPASS
     };
     static const struct option options[] = {
         EL_COMMON_OPTIONS,
@@ -96,6 +97,7 @@ static bool parse(int argc, char **argv, render_options *o)
         {"crc", no_argument, NULL, CRC},
         {"stats", no_argument, NULL, STATS},
         {"sparing", no_argument, NULL, SPARING},
+        {"depth-prepass", no_argument, NULL, DEPTH_PREPASS},
         {NULL, 0, NULL, 0},
     };
     *o = (render_options){.common = el_common_options_default(1)};
@@ -116,6 +118,8 @@ static bool parse(int argc, char **argv, render_options *o)
             o->stats = true;
         } else if (which == SPARING) {
             o->common.machine.sparing = true;
+        } else if (which == DEPTH_PREPASS) {
+            o->common.machine.depth_prepass = true;
         } else if (!el_common_options_take(&o->common, which, optarg)) {
             return false;
         }
@@ -151,6 +155,8 @@ static const char *const stat_names[] = {
     "clusters_outside",
     "clusters_turned",
     "triangles_skipped",
+    "triangles_hidden",
+    "pixels_prepass",
     "lines_background",
     "frames_unchanged",
 };

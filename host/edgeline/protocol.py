@@ -42,6 +42,8 @@ COUNTERS = (
     "clusters_outside",
     "clusters_turned",
     "triangles_skipped",
+    "triangles_hidden",
+    "pixels_prepass",
     "lines_background",
     "frames_unchanged",
 )

@@ -12,10 +12,12 @@ static recording whole, record, second, third;
 static uint8_t memory[GUARD + PLENTY + GUARD + 8] __attribute__((aligned(8)));
 static size_t arena_at; /* guards lie before and behind */
 static el_renderer renderer;
+static bool prepass; /* of the frames that `start` is for */
 
 void setUp(void)
 {
     arena_at = GUARD;
+    prepass = false;
     memset(&record, 0, sizeof record);
     memset(&second, 0, sizeof second);
     memset(&third, 0, sizeof third);
@@ -33,6 +35,7 @@ static void start(recording *r, uint16_t band_lines, size_t bytes)
                               .height = HEIGHT,
                               .band_lines = band_lines,
                               .background = 0x1234,
+                              .depth_prepass = prepass,
                               .memory = memory + arena_at,
                               .memory_bytes = bytes,
                               .sinks = {&sink}};
@@ -258,6 +261,65 @@ static void test_without_depth_the_last_one_wins(void)
     }
 }
 
+#if EL_WITH_PREPASS
+/* Depth first: every pixel is shaded once, by the triangle that wins without a pre-pass, also where depths are equal, where
+ * draws without depth lie between, and where a band is drawn in several parts. */
+static void test_depth_first_draws_the_same(void)
+{
+    uint32_t twice = 0;
+    for (seeded s = seeded_from(68); s.round < SCENES; s.round++) {
+        reached sums = {0};
+        prepass = false;
+        draw_whole(&s);
+        prepass = true;
+        for (unsigned i = 0; i < BAND_HEIGHTS; i++) {
+            const size_t least = EL_MIN_MEMORY_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)band_heights[i]);
+            draw_again(&s, "depth first", band_heights[i], PLENTY, &sums);
+            twice += record.stats.pixels_prepass;
+            draw_again(&s, "depth first, little memory", band_heights[i], least, &sums);
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(10000), twice);
+}
+#endif
+
+/* A view from the same place, in depth that many triangles have in common. */
+static void test_equal_depths_keep_the_first(void)
+{
+    static const int16_t positions[4][3] = {{-200, -200, 0}, {200, -200, 0}, {200, 200, 0}, {-200, 200, 0}};
+    static const uint16_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    static const el_mesh quad = {.positions = positions,
+                                 .triangles = triangles,
+                                 .vertex_count = 4,
+                                 .triangle_count = 2,
+                                 .scale_log2 = -8,
+                                 .radius = 283};
+    static const el_material first = {.colour = {255, 0, 0}};
+    static const el_material later = {.colour = {0, 255, 0}};
+    static const int32_t eye[3] = {0, 0, 2 * EL_UNIT_Q16};
+    static const int32_t origin[3] = {0, 0, 0};
+    static const int32_t up[3] = {0, EL_UNIT_Q16, 0};
+    const el_pose pose = el_pose_identity();
+    el_camera camera = {.fov_y = EL_DEGREES(30, 1), .near_q16 = EL_UNIT_Q16, .far_q16 = 20 * EL_UNIT_Q16};
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_camera_look_at(&camera, eye, origin, up));
+    for (unsigned i = 0; i < 2U * BAND_HEIGHTS; i++) {
+        prepass = EL_WITH_PREPASS && i % 2 != 0;
+        start(&record, band_heights[i / 2], PLENTY);
+        TEST_ASSERT_EQUAL_INT(EL_OK, el_frame_begin(&renderer, &camera));
+        do {
+            TEST_ASSERT_EQUAL_INT(EL_OK, el_draw(&renderer, &quad, &pose, &first));
+            for (unsigned k = 0; k < 4; k++) {
+                TEST_ASSERT_EQUAL_INT(EL_OK, el_draw(&renderer, &quad, &pose, &later));
+            }
+        } while (el_frame_next(&renderer) > 0);
+        TEST_ASSERT_EACH_EQUAL_HEX16(0xF800, record.pixels, WIDTH * HEIGHT);
+#if EL_WITH_HIDDEN
+        TEST_ASSERT_EQUAL_UINT32(8U * ((HEIGHT + band_heights[i / 2] - 1U) / band_heights[i / 2]),
+                                 record.stats.triangles_hidden);
+#endif
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -268,5 +330,9 @@ int main(void)
     RUN_TEST(test_three_sinks_see_the_same);
     RUN_TEST(test_many_small_draws);
     RUN_TEST(test_without_depth_the_last_one_wins);
+#if EL_WITH_PREPASS
+    RUN_TEST(test_depth_first_draws_the_same);
+#endif
+    RUN_TEST(test_equal_depths_keep_the_first);
     return UNITY_END();
 }

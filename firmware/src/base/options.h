@@ -78,6 +78,17 @@
 #define EL_WITH_CLUSTERS (!EL_SMALL_CODE)
 #endif
 
+/* What is behind everything that is drawn already is not set up (raster/hidden.h). Without, which is what small code begins
+ * with, the depth test finds it pixel by pixel. Needs EL_WITH_STATS, which count how full a band is. */
+#ifndef EL_WITH_HIDDEN
+#define EL_WITH_HIDDEN (!EL_SMALL_CODE && EL_WITH_STATS)
+#endif
+
+/* el_config.depth_prepass. Without, which is what small code begins with: el_init refuses it with EL_ERROR_SIZE. */
+#ifndef EL_WITH_PREPASS
+#define EL_WITH_PREPASS (!EL_SMALL_CODE)
+#endif
+
 /* Several cores for a frame (el_config.workers, frame/workers.h). Without, which is what small code begins with: el_init
  * refuses more than one with EL_ERROR_SIZE. */
 #ifndef EL_WITH_WORKERS
@@ -85,9 +96,13 @@
 #endif
 
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
-     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_CLUSTERS | EL_WITH_WORKERS | EL_WITH_DEBUG_VIEWS) &        \
+     EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_CLUSTERS | EL_WITH_HIDDEN | EL_WITH_PREPASS |              \
+     EL_WITH_WORKERS | EL_WITH_DEBUG_VIEWS) &                                                                          \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
+#endif
+#if EL_WITH_HIDDEN && !EL_WITH_STATS
+#error "EL_WITH_HIDDEN needs EL_WITH_STATS"
 #endif
 #if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
 #error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"

@@ -31,6 +31,8 @@ typedef struct el_stats {
     uint32_t clusters_outside;   /* clusters outside the view, by their spheres */
     uint32_t clusters_turned;    /* clusters that face away, by their cones */
     uint32_t triangles_skipped;  /* triangles of both kinds, which were not looked at */
+    uint32_t triangles_hidden;   /* not drawn into a band, being behind all that was there; once for each band */
+    uint32_t pixels_prepass;     /* pixels of spans that were drawn for their depth alone */
     uint32_t lines_background; /* lines of bands left out: background, in the frame before too (EL_REUSE_BACKGROUND) */
     uint32_t frames_unchanged; /* 1: this frame is the one before, nothing was drawn (EL_REUSE_FRAME) */
 } el_stats;

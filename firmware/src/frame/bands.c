@@ -9,8 +9,12 @@
 typedef struct carried_state {
     uint16_t next;
     uint16_t order; /* name of the record, or of its share in a group */
+    uint16_t depth; /* of its nearest corner */
     el_triangle triangle;
 } carried_state;
+
+/* What a depth band is cleared to; before a pre-pass a unit less, which is added then (draw_depth_first). */
+enum { EMPTY = 0xFFFF, FARTHEST = EL_DEPTH_MAX };
 
 enum { NO_ORDER = 0xFFFF }; /* after all names: a list ends before that unit */
 
@@ -68,7 +72,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
-        el_fill_u16(depth, 0xFFFF, pixels);
+        el_fill_u16(depth, painter->first_depth ? FARTHEST : EMPTY, pixels);
         painter->band_is_open = 1;
     }
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
@@ -86,6 +90,26 @@ void el_bands_hand_over(el_renderer *renderer, el_band *band)
         }
     }
     el_count(&renderer->stats.bands, 1);
+}
+
+#if EL_WITH_HIDDEN
+/* Whether all of a triangle is behind what is drawn already; counts it. A view of what the depth test rejects wants to see
+ * it all the same. */
+static bool is_hidden(el_painter *painter, const el_target *target, const el_surface *surface, int32_t x_begin,
+                      int32_t x_end, uint16_t depth)
+{
+    if (!el_hidden_is_likely(painter->hidden, target, painter->stats) || !surface->depth ||
+        surface->shading == EL_SHADE_OVERDRAW || !el_hidden_is(painter->hidden, target, x_begin, x_end, depth)) {
+        return false;
+    }
+    el_count(&painter->stats->triangles_hidden, 1);
+    return true;
+}
+#endif
+
+static uint16_t nearest(const el_corner corners[3])
+{
+    return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
 }
 
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
@@ -106,11 +130,20 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     el_count(&painter->stats->setups, 1);
     const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
     const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
+#if EL_WITH_HIDDEN
+    if (is_hidden(painter, target, &surface,
+                  el_first_centre(el_min_i32(corners[0].x, el_min_i32(corners[1].x, corners[2].x))),
+                  el_first_centre(el_max_i32(corners[0].x, el_max_i32(corners[1].x, corners[2].x))),
+                  nearest(corners))) {
+        return reaches_on ? name : 0;
+    }
+#endif
     if (EL_WITH_CARRY && reaches_on) {
         state_name = take_state(c, list, surface.shading);
         if (state_name != 0) {
             carried_state *const state = el_list_at(list, state_name);
             state->order = name;
+            state->depth = nearest(corners);
             triangle = &state->triangle;
         }
     }
@@ -133,9 +166,19 @@ static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, u
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
         return draw_record(painter, renderer, name, target);
     }
+    const carried_state *const state = el_list_at(&renderer->list, name);
     el_triangle *const triangle = &((carried_state *)el_list_at(&renderer->list, name))->triangle;
+    const bool reaches_on = painter->goes_on && triangle->y_end > target->y_end;
+    const uint16_t order = state->order;
+#if EL_WITH_HIDDEN
+    if (is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
+        /* It is set up anew where it comes into sight, if it does. */
+        give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
+        return reaches_on ? order : 0;
+    }
+#endif
     el_triangle_draw(triangle, target, painter->stats);
-    if (painter->goes_on && triangle->y_end > target->y_end) {
+    if (reaches_on) {
         return name;
     }
     give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
@@ -149,16 +192,77 @@ void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, 
         (el_carrying){.first_state = (uint16_t)(list->used / EL_LIST_UNIT), .begin = begin, .used = begin, .end = end};
 }
 
+#if EL_WITH_PREPASS
+/* Draws the depth alone of a record's triangle, or of one that is carried on. */
+static void draw_depth(const el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target,
+                       el_stats *stats)
+{
+    const el_list *const list = &renderer->list;
+    el_triangle triangle;
+    if (EL_WITH_CARRY && name >= painter->carrying.first_state) {
+        el_triangle_take_depth(&triangle, &((const carried_state *)el_list_at(list, name))->triangle);
+    } else {
+        el_corner corners[3];
+        el_surface surface;
+        stats->vertices += el_list_gather_depth(list, el_list_record(list, name), corners, &surface);
+        if (!surface.depth || !el_triangle_setup(&triangle, corners, &surface, target->y)) {
+            return;
+        }
+    }
+    if (triangle.surface.depth) {
+        el_triangle_draw(&triangle, target, stats);
+    }
+}
+
+/* A pre-pass: the depth of all triangles, from the chains that begin with `fresh` and `carried`, and then a unit more for
+ * every pixel. What is drawn afterwards passes the test with its own depth where nothing is nearer; the first that does
+ * takes the unit off again, so each pixel is shaded once, and of equal depths the one that was submitted first stays.
+ * Colours that are left behind are drawn over: a pixel with a depth gets its triangle's. */
+static void draw_depth_first(el_painter *painter, const el_renderer *renderer, const el_target *target, uint16_t fresh,
+                             uint16_t carried)
+{
+    el_stats stats = {0};
+    for (uint16_t name = carried; name != 0; name = *(const uint16_t *)el_list_at(&renderer->list, name)) {
+        draw_depth(painter, renderer, name, target, &stats);
+    }
+    for (uint16_t name = fresh; name != 0; name = *(const uint16_t *)el_list_at(&renderer->list, name)) {
+        draw_depth(painter, renderer, name, target, &stats);
+    }
+    el_word *const words = (el_word *)(void *)target->depth;
+    const uint32_t pixels = (uint32_t)((target->y_end - target->y) * target->width);
+    for (uint32_t i = 0; i < (pixels + 1U) / 2U; i++) {
+        words[i] += 0x10001U; /* FARTHEST at most in both halves: no carry */
+    }
+    el_count(&painter->stats->vertices, stats.vertices);
+    el_count(&painter->stats->pixels_prepass, stats.pixels);
+#if EL_WITH_HIDDEN
+    painter->hidden->pixels_before -= stats.pixels;
+#endif
+}
+#endif
+
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
 void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
+    painter->first_depth = EL_WITH_PREPASS && renderer->config.depth_prepass && !painter->band_is_open &&
+                           renderer->config.view == EL_DEBUG_PICTURE;
     const el_target target = open_band(painter, renderer, band);
     painter->goes_on = goes_on;
     uint16_t fresh = el_list_take_bin(list, band);
     uint16_t carried = c->first;
+#if EL_WITH_HIDDEN
+    el_hidden hidden;
+    painter->hidden = &hidden;
+    el_hidden_begin(&hidden, painter->stats);
+#endif
+#if EL_WITH_PREPASS
+    if (painter->first_depth) {
+        draw_depth_first(painter, renderer, &target, fresh, carried);
+    }
+#endif
     uint16_t carried_order = order_of(c, list, carried);
     uint16_t *last = &c->first;
     for (;;) {
@@ -181,6 +285,9 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t 
         }
     }
     *last = 0;
+#if EL_WITH_HIDDEN
+    painter->hidden = NULL;
+#endif
 }
 
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes)

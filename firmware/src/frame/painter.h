@@ -8,6 +8,7 @@
 
 #include "base/sink.h"
 #include "base/stats.h"
+#include "raster/hidden.h"
 #include "raster/list.h"
 
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
@@ -27,6 +28,7 @@ typedef struct el_painter {
     uint8_t current;      /* which of `bands` is drawn into next */
     uint8_t band_is_open; /* it is cleared, and part of its triangles are drawn */
     bool goes_on;         /* what reaches beyond the open band is carried on */
+    bool first_depth;     /* its depth is drawn before its colours */
     uint8_t first;        /* `current` as this pass begins */
     /* With several workers, how many of its bands of this pass are complete, which its core writes, and how many of those
      * the sinks have got, which the caller's core writes. */
@@ -39,6 +41,9 @@ typedef struct el_painter {
     el_band bands[2];
     uint16_t *depth[2]; /* of each band; one and the same where there is one worker */
     el_carrying carrying;
+#if EL_WITH_HIDDEN
+    el_hidden *hidden; /* of the band that is drawn into */
+#endif
 } el_painter;
 
 #endif

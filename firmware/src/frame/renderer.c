@@ -21,7 +21,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
-        config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0) {
+        (config->depth_prepass && !EL_WITH_PREPASS) || config->view >= EL_DEBUG_VIEWS ||
+        (config->shading_off & ~EL_DEBUG_SHADINGS) != 0) {
         return EL_ERROR_SIZE;
     }
     const uint32_t width = config->width;

@@ -50,7 +50,7 @@ enum {
     /* A draw call's; 8 for each change between whole and cut triangles come to it. */
     EL_RUN_BYTES = EL_WITH_THIN ? 160 : 32,
     /* What the renderer knows of a core beside the caller's. */
-    EL_PAINTER_BYTES = 320
+    EL_PAINTER_BYTES = 352
 };
 
 #define EL_ROUND_UP_8(bytes) (((bytes) + 7U) / 8U * 8U)
@@ -107,8 +107,10 @@ typedef struct el_config {
     uint8_t view;          /* el_debug_view */
     uint8_t shading_off;   /* bits of el_shading that no surface uses, see debug_view.h */
     uint8_t reuse;         /* EL_REUSE_, 0: every frame is made anew */
-    void *memory;          /* the arena, the renderer's until the last frame is done; any alignment */
-    size_t memory_bytes;   /* at least EL_MIN_MEMORY_BYTES */
+    bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
+                              and much lies behind other things; may be changed between frames too */
+    void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
+    size_t memory_bytes; /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
     const el_workers *workers; /* NULL: the caller's core draws alone. Else memory_bytes is EL_WORKERS_BYTES more */
 } el_config;

@@ -102,6 +102,8 @@ static void add_stats(el_stats *sum, const el_stats *part)
     el_count(&sum->rows, part->rows);
     el_count(&sum->spans, part->spans);
     el_count(&sum->pixels, part->pixels);
+    el_count(&sum->triangles_hidden, part->triangles_hidden);
+    el_count(&sum->pixels_prepass, part->pixels_prepass);
 }
 
 /* What the list has left of its memory, in a part for each core. */

@@ -211,3 +211,18 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     }
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }
+
+unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
+{
+    const el_record_kind kind = (el_record_kind)el_list_run(list, record)->kind;
+    const el_draw_state *const draw = el_list_draw(list, record);
+    *surface = (el_surface){
+        .shading = EL_SHADE_FLAT,
+        .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW,
+    };
+    if (!surface->depth) {
+        return 0U;
+    }
+    gather_points(draw, record, kind, corners);
+    return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
+}

@@ -265,6 +265,9 @@ void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, ui
  * vertices it transformed for that. */
 unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
 
+/* The same for its depth alone: corners without attributes, a flat surface in no colour. */
+unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+
 #ifdef __cplusplus
 }
 #endif

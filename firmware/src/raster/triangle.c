@@ -1,6 +1,7 @@
 #include "raster/triangle.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "base/fixed.h"
 #include "raster/small_plane.h"
@@ -233,4 +234,10 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
 #endif
     const outline again = o;
     return set_up_large(triangle, &again, surface, y_begin);
+}
+
+void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle)
+{
+    memcpy(depth, triangle, offsetof(el_triangle, rgb));
+    depth->surface.shading = EL_SHADE_FLAT;
 }

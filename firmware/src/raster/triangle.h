@@ -66,6 +66,9 @@ uint32_t el_triangle_bytes(el_shading shading);
  * and sets up nothing, when no row of the triangle is left or its area is zero. */
 bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row);
 
+/* Makes `depth` draw the depth of what `triangle` is about to draw, if it has one; flat, in the same colour. */
+void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle);
+
 /* Where to draw: the rows [y, y_end) of the screen. */
 typedef struct el_target {
     uint16_t *colour; /* width pixels per row */
