@@ -221,7 +221,7 @@ static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *di
     }
     const uint32_t high = el_divide_digit(rest, 0, divisor, &rest);
     const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, divisor, &rest);
-    return (n ^ divisor->d) < 0 ? 0 - quotient : quotient;
+    return (n < 0) != (divisor->d < 0) ? 0 - quotient : quotient;
 #else
     /* Signed: each digit has the quotient's sign, and so has the remainder n's, below 2^19 as d is: 2^12 of it fits. */
     /* NOLINTBEGIN(clang-analyzer-core.DivideZero): d is not 0. */

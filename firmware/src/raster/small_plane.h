@@ -35,7 +35,7 @@ static inline bool el_shape_is_small(const el_small_shape *shape)
            (uint32_t)shape->dx2 + most <= 2U * most && (uint32_t)shape->dx2 - (uint32_t)shape->dx1 + most <= 2U * most;
 }
 
-_Static_assert((int)EL_EDGE_NARROW * (int)EL_EDGE_SHORT < 1 << EL_SMALL_DIVISOR_BITS, "a box of short edges");
+_Static_assert((int)EL_EDGE_NARROW *(int)EL_EDGE_SHORT < 1 << EL_SMALL_DIVISOR_BITS, "a box of short edges");
 _Static_assert((int)EL_EDGE_NARROW <= (int)EL_SMALL_SUB, "plane.c makes the same by parts");
 
 typedef struct el_small_frame {
@@ -70,8 +70,8 @@ static inline void el_small_plane_make(el_plane *plane, const el_small_frame *fr
     plane->dy = g.per_y << EL_SUBPIXEL_BITS;
     /* Column 0 is to the left of what is on the screen. */
     const uint32_t below = (uint32_t)(frame->row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0); /* at most 511 */
-    plane->value = ((uint64_t)z0 << 32) + el_multiply_u16(g.per_y, below) -
-                   el_multiply_u64(g.per_x, frame->x0 - EL_SUBPIXELS / 2);
+    plane->value =
+        ((uint64_t)z0 << 32) + el_multiply_u16(g.per_y, below) - el_multiply_u64(g.per_x, frame->x0 - EL_SUBPIXELS / 2);
 }
 
 /* A colour channel, 0 to 255 in 8.8. Rounded are the offset to the centre of the first corner's pixel and what a pixel is,
@@ -88,8 +88,8 @@ static inline void el_small_channel_make(el_channel *channel, const el_small_fra
     const uint32_t dy = el_q32_to_q24(g.per_y << EL_SUBPIXEL_BITS);
     channel->dx = dx;
     channel->dy = dy;
-    channel->value = ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + el_q32_to_q24(offset) +
-                     dx * (uint32_t)-column + dy * (uint32_t)(frame->row - row);
+    channel->value = ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + el_q32_to_q24(offset) + dx * (uint32_t)-column +
+                     dy * (uint32_t)(frame->row - row);
 }
 
 #ifdef __cplusplus
