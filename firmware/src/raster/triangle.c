@@ -1,8 +1,8 @@
-#include "raster/triangle.h"
 
 #include <stddef.h>
 
 #include "base/fixed.h"
+#include "raster/fill.h"
 
 _Static_assert((EL_EDGE_MAX_ROWS + 3LL) * (EL_SUBPIXEL_BITS == 4 ? 16 : 1) * 2 * EL_GUARD_SUB < 1LL << 32,
                "what is cut off on the way is less than a step of the grid");
@@ -117,6 +117,7 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
         return false;
     }
     triangle->surface = *surface;
+    triangle->kind = el_fill_kind(surface);
     triangle->y = (int16_t)y_begin;
     triangle->y_middle = (int16_t)y_middle;
     triangle->y_end = (int16_t)y_end;
