@@ -537,7 +537,7 @@ DIGIT = Subject(
 def digit(machine: Machine, arguments: list[Any]) -> Number:
     """The contract of el_divide_digit."""
     high, low, divisor, remainder = arguments
-    path, normalised = machine.path, machine.poly(arguments[2].cell, "normalised")
+    path, normalised = machine.path, machine.poly(divisor.cell, "normalised")
     path.prove(normalised - 1 - high.poly, "el_divide_digit: high < normalised")
     path.prove((1 << 16) - 1 - low.poly, "el_divide_digit: low < 2^16")
     n = high.poly * (1 << 16) + low.poly
