@@ -110,7 +110,9 @@ class Arithmetic:
         return zero if operator == "==" else not zero
 
     def divide(self, a: Poly, b: Poly, where: c_ast.Node) -> Poly:
-        """a / b, truncated, b > 0."""
+        """a / b, truncated, b > 0 or bounded below 0."""
+        if self.path.bounds(b)[1] < 0:
+            return -self.divide(a, -b, where)
         if not self.path.holds(b - 1):
             raise ProofError(f"{where.coord}: division by what may be zero or less; {self.path.example(b - 1)}")
         if self.rough:

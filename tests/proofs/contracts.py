@@ -93,11 +93,20 @@ def ratio_q32(machine: Machine, arguments: list[Any]) -> Number:
 
 
 def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
-    """el_reciprocal_of_short: floor((2^32 - 1) / d). Pre: 1 <= d <= EL_SHORT_DIVISOR."""
+    """el_reciprocal_of_short: floor((2^31 - 1) / d). Pre: 1 <= d <= EL_SHORT_DIVISOR."""
     d, path = arguments[0].poly, machine.path
     path.prove(d - 1, "el_reciprocal_of_short: d >= 1")
     path.prove(machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]) - d, "el_reciprocal_of_short: d is short")
-    return machine.exactly("uint32_t", path.new_quotient(Poly.of(WORD - 1), d, 0, WORD - 1))
+    return machine.exactly("int32_t", path.new_quotient(Poly.of(WORD // 2 - 1), d, 0, WORD // 2 - 1))
+
+
+def product_down_11(machine: Machine, arguments: list[Any]) -> Number:
+    """el_product_down_11: floor(a b / 2^11). Pre: |a| < 2^15, 0 <= b, and it fits 32 bits, which its caller proves."""
+    a, b = (argument.poly for argument in arguments)
+    machine.path.prove(2**15 - 1 - a, "el_product_down_11: a < 2^15")
+    machine.path.prove(2**15 - 1 + a, "el_product_down_11: a > -2^15")
+    machine.path.prove(b, "el_product_down_11: b >= 0")
+    return machine.exactly("int32_t", machine.path.floor(a * b, 1 << 11))
 
 
 def reciprocal_near(machine: Machine, arguments: list[Any]) -> Number:
@@ -142,6 +151,7 @@ def _times(name: str, most: int) -> Contract:
 
 
 plane_times, multiply_u64 = _times("el_plane_times", 1 << 22), _times("el_multiply_u64", 1 << 16)
+multiply_u16 = _times("el_multiply_u16", 1 << 16)
 
 
 DIVISION = {

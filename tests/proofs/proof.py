@@ -247,6 +247,7 @@ __all__ = [
     "SMALL_CODE",
     "Fact",
     "Fault",
+    "Lemma",
     "Machine",
     "Number",
     "Pointer",

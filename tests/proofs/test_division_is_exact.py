@@ -23,7 +23,7 @@ import pytest
 
 import contracts
 from c_source import ARMV6M, SOURCES, core_options, faulty_tree
-from proof import Fact, Fault, Machine, Number, Pointer, Poly, Subject, compile_c
+from proof import Fact, Fault, Lemma, Machine, Number, Pointer, Poly, Subject, compile_c
 
 B = 1 << 32
 FILE, HEADER = "base/divide.c", "base/divide.h"
@@ -79,7 +79,14 @@ int main(void)
 {
     int wrong = 0;
     for (uint32_t d = 1; d <= EL_SHORT_DIVISOR; d++) {
-        wrong |= differ(d, el_reciprocal_of_short(d), 0xFFFFFFFFU / d);
+        wrong |= differ(d, (uint32_t)el_reciprocal_of_short((int32_t)d), 0x7FFFFFFFU / d);
+    }
+    for (uint32_t d = 1; d < 1U << 16; d++) {
+        /* 2^31 - r normalised is in [0, 2 normalised). */
+        const el_small_divisor made = el_small_divisor_make((int32_t)d);
+        const uint32_t rest = 0x80000000U - made.reciprocal * made.normalised;
+        const int right = made.normalised == d << made.shift && made.normalised >> 15 == 1 && made.limit == d;
+        wrong |= differ(d, rest < 2U * made.normalised && right, 1);
     }
     for (uint32_t d = 512; d < 1024; d++) {
         wrong |= differ(d, el_first_guess(d), ((1U << 24) - (1U << 14) + (1U << 9)) / d);
@@ -121,9 +128,14 @@ TABLE = "base/reciprocals.c"
         (EVERY_DIVISOR, "", Fault(HEADER, "(v1, e) >> 33", "(v1, e) >> 34")),
         (EVERY_NEAR, "", Fault(HEADER, "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 17")),
         (EVERY_NEAR, "", Fault(HEADER, "0x7FFFFFFFU - product", "0x80000010U - product")),
-        (EVERY_ENTRY, ARMV6M, Fault(HEADER, "* (left >> 5)) >> 24", "* (left >> 5)) >> 25")),
+        (
+            EVERY_ENTRY,
+            ARMV6M,
+            Fault(HEADER, "const uint32_t quotient = 2U * guess +", "const uint32_t quotient = guess +"),
+        ),
+        (EVERY_ENTRY, ARMV6M, Fault(HEADER, ".reciprocal = 2U * guess", ".reciprocal = guess")),
         (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x7FE1, 0x7FA1", "0x7FE1, 0x7FA2")),
-        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x00804020", "0x00804021")),
+        (EVERY_ENTRY, ARMV6M, Fault(TABLE, "0x00402010", "0x00402011")),
     ],
     ids=lambda value: value.new if isinstance(value, Fault) else "",
 )
@@ -274,18 +286,14 @@ def wide_domain(machine: Machine) -> list[Any]:
     return [n, machine.number("uint32_t", "fraction"), machine.number("uint64_t", "d", 1, 2**47 - 1)]
 
 
-def i32_q32_domain(machine: Machine) -> list[Any]:
-    return [machine.number("int32_t", "n", -(2**31) + 1), any_divisor(machine)]
-
-
 def short_domain(machine: Machine) -> list[Any]:
-    return [machine.number("uint32_t", "d", 1, machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]))]
+    return [machine.number("int32_t", "d", 1, machine.constant(machine.unit.constants["EL_SHORT_DIVISOR"]))]
 
 
 def short_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    rest = B - 1 - result.poly * arguments[0].poly
-    machine.path.prove(rest, "r d <= 2^32 - 1")
-    machine.path.prove(arguments[0].poly - 1 - rest, "2^32 - 1 < (r + 1) d")
+    rest = B // 2 - 1 - result.poly * arguments[0].poly
+    machine.path.prove(rest, "r d <= 2^31 - 1")
+    machine.path.prove(arguments[0].poly - 1 - rest, "2^31 - 1 < (r + 1) d")
 
 
 def ratio_domain(c_type: str, most_n: int, most_d: int) -> Any:
@@ -330,7 +338,7 @@ class Quotients:
         return quotient
 
 
-CHAIN, SHORT_CHAIN = Quotients(3), Quotients(2)
+CHAIN = Quotients(3)
 
 
 def chain_check(machine: Machine, exact: Poly, divisor: Pointer, chain: Quotients, result: Number) -> None:
@@ -353,11 +361,6 @@ def chain_check(machine: Machine, exact: Poly, divisor: Pointer, chain: Quotient
 def q32_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     n, fraction, divisor = arguments
     chain_check(machine, n.poly * B + fraction.poly, divisor, CHAIN, result)
-
-
-def i32_q32_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    n, divisor = arguments
-    chain_check(machine, n.poly * B, divisor, SHORT_CHAIN, result)
 
 
 def wide_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -393,14 +396,6 @@ MAKE = Subject(
     ),
     contracts={"el_reciprocal_word": lambda machine, _: machine.number("uint32_t", "reciprocal")},
 )
-I32_Q32 = Subject(
-    FILE,
-    "el_divide_i32_q32",
-    i32_q32_domain,
-    i32_q32_check,
-    ["el_divide_i32_q32"],
-    {"el_divide_words": SHORT_CHAIN.divide_words},
-)
 SHORT = Subject(FILE, "el_reciprocal_of_short", short_domain, short_check)
 RATIO = Subject(
     FILE,
@@ -416,9 +411,7 @@ WIDE_RATIO = Subject(
     ratio_check,
     lemmas={"el_wide_ratio_q32.quotient": whole_lemma},
 )
-SUBJECTS = {
-    subject.function: subject for subject in (WORDS, U64, FLOOR, Q32, I32_Q32, WIDE, MAKE, SHORT, RATIO, WIDE_RATIO)
-}
+SUBJECTS = {subject.function: subject for subject in (WORDS, U64, FLOOR, Q32, WIDE, MAKE, SHORT, RATIO, WIDE_RATIO)}
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
@@ -439,8 +432,7 @@ def test_the_compiler_agrees(name: str) -> None:
     [
         ("el_divide_words", "if (rest >= d) {", "if (rest > d) {"),
         ("el_divide_words", "if (rest > (uint32_t)product) {", "if (rest > (uint32_t)product + 1U) {"),
-        ("el_divide_i32_q32", "magnitude >> (32U - shift)", "magnitude >> (31U - shift)"),
-        ("el_reciprocal_of_short", "0xFFFFFFFFU / d", "0xFFFFFFFFU / (d + 1U)"),
+        ("el_reciprocal_of_short", "INT32_MAX / d", "INT32_MAX / (d + 1)"),
         ("el_ratio_q32", "d - 1U - rest", "d - rest"),
         ("el_wide_ratio_q32", "rest < 0 ? quotient - 1", "rest < 0 ? quotient"),
     ],
@@ -452,3 +444,245 @@ def test_the_proof_can_fail(name: str, old: str, new: str) -> None:
 def test_the_proof_can_fail_on_the_wide_division() -> None:
     WIDE.fails_with(Fault(FILE, "shift = 16; shift >= 0; shift -= 16", "shift = 15; shift >= 0; shift -= 15"))
     Q32.fails_with(Fault(FILE, "fraction == 0 ? el_abs_u64(n) : ~(uint64_t)n", "~(uint64_t)n"))
+
+
+# --- by a small divisor -----------------------------------------------------------------------------------------------
+
+
+def is_by_digits(machine: Machine) -> bool:
+    return "el_divide_digit" in machine.unit.functions
+
+
+def small_divisor(machine: Machine, least: int = 1) -> Pointer:
+    """Any small divisor of either sign; on cores without a divider, with what its making is proven to give above."""
+    path = machine.path
+    most = (1 << machine.constant(machine.unit.constants["EL_SMALL_DIVISOR_BITS"])) - 1
+    magnitude = path.atom("magnitude", least, most)
+    sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
+    divisor = machine.struct("el_small_divisor", d=magnitude * sign)
+    divisor.stands_for = magnitude
+    if not is_by_digits(machine):
+        return Pointer([divisor])
+    known = magnitude.constant
+    if known is not None:
+        shift = max(0, 16 - known.bit_length())
+        normalised = Poly.of(known << shift)
+        reciprocal = Poly.of((B // 2) // (known << shift))
+        limit = Poly.of(known if known < 1 << 16 else 0)
+    elif path.decide((1 << 16) - 1 - magnitude, magnitude - (1 << 16)):
+        shift = path.choose(path.atom("shift", 0, 15))
+        normalised, limit = magnitude * (1 << shift), magnitude
+        path.assume(normalised - (1 << 15))
+        path.assume((1 << 16) - 1 - normalised)
+        reciprocal = path.atom("reciprocal", 0, 1 << 16)
+    else:
+        shift, limit = 0, Poly.of(0)
+        normalised, reciprocal = path.atom("normalised", 0, B - 1), path.atom("reciprocal", 0, B - 1)
+    for name, value in (("limit", limit), ("normalised", normalised), ("reciprocal", reciprocal), ("shift", shift)):
+        machine.put(divisor.content[name], value)
+    return Pointer([divisor])
+
+
+def digit_domain(machine: Machine) -> list[Any]:
+    path = machine.path
+    normalised = path.atom("normalised", 1 << 15, (1 << 16) - 1)
+    high, low = path.atom("high", 0, (1 << 16) - 2), machine.number("uint32_t", "low", 0, (1 << 16) - 1)
+    path.assume(normalised - 1 - high)
+    if normalised.constant is not None:
+        reciprocal = Poly.of((B // 2) // normalised.constant)
+    else:
+        reciprocal = path.atom("reciprocal", 0, 1 << 16)
+        rest = B // 2 - reciprocal * normalised
+        path.assume(rest)
+        path.assume(2 * normalised - 1 - rest)
+        path.assume_product(high, rest)
+        path.assume_product(high, 2 * normalised - 1 - rest)
+    divisor = machine.struct("el_small_divisor", d=1, limit=1, normalised=normalised, reciprocal=reciprocal, shift=0)
+    return [machine.exactly("uint32_t", high), low, Pointer([divisor]), machine.array("uint32_t", [0])]
+
+
+def first_digit_lemma(machine: Machine, quotient: Number) -> Number:
+    """q = floor(high r / 2^15), times what is divided by: not above high 2^16, and not far below."""
+    path, scope = machine.path, machine.scopes[0]
+    if quotient.poly.constant is not None or "el_divide_digit.quotient" in machine.locals:
+        return quotient
+    divisor = scope["divisor"].content.cell
+    high, normalised = scope["high"].content.poly, machine.poly(divisor, "normalised")
+    cut_off = high * machine.poly(divisor, "reciprocal") - quotient.poly * (1 << 15)
+    path.assume_product(cut_off, normalised)
+    path.assume_product((1 << 15) - 1 - cut_off, normalised)
+    return quotient
+
+
+def digit_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    high, low, divisor, remainder = arguments
+    normalised, rest = machine.poly(divisor.cell, "normalised"), machine.poly(remainder.cell)
+    machine.path.prove(rest, "0 <= remainder")
+    machine.path.prove(normalised - 1 - rest, "remainder < normalised")
+    exact = high.poly * (1 << 16) + low.poly - result.poly * normalised - rest
+    machine.path.prove(exact, "n = q normalised + remainder", zero=True)
+
+
+DIGIT = Subject(
+    FILE,
+    "el_divide_digit",
+    digit_domain,
+    digit_check,
+    ["el_divide_digit"],
+    lemmas={"el_divide_digit.quotient": first_digit_lemma},
+    core=ARMV6M,
+)
+
+
+def digit(machine: Machine, arguments: list[Any]) -> Number:
+    """The contract of el_divide_digit."""
+    high, low, divisor, remainder = arguments
+    path, normalised = machine.path, machine.poly(divisor.cell, "normalised")
+    path.prove(normalised - 1 - high.poly, "el_divide_digit: high < normalised")
+    path.prove((1 << 16) - 1 - low.poly, "el_divide_digit: low < 2^16")
+    n = high.poly * (1 << 16) + low.poly
+    quotient = path.atom("digit", 0, (1 << 16) - 1)
+    path.assume(n - quotient * normalised)
+    path.assume(normalised - 1 - n + quotient * normalised)
+    machine.put(remainder.cell, n - quotient * normalised)
+    DIGITS.append(quotient)
+    return machine.exactly("uint32_t", quotient)
+
+
+DIGITS: list[Poly] = []
+
+
+def asked_for(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_i32_q32, proven below: what is divided by what, and some quotient."""
+    n, d = (argument.poly for argument in arguments)
+    scope = machine.scopes[0]
+    machine.path.prove(n - scope["n"].content.poly, "the dividend is handed on", zero=True)
+    machine.path.prove(d - machine.poly(scope["divisor"].content.cell, "d"), "and the divisor", zero=True)
+    return machine.number("uint64_t", "handed on")
+
+
+def small_domain(machine: Machine) -> list[Any]:
+    DIGITS.clear()
+    n = machine.number("int32_t", "n", -(2**31) + 1)
+    return [n, small_divisor(machine)]
+
+
+def small_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """The digits make Q = floor(2^32 |n| / |d|), and the result is Q or -Q modulo 2^64."""
+    path = machine.path
+    n, divisor = arguments[0].poly, arguments[1]
+    d = divisor.cell.stands_for
+    if is_by_digits(machine):
+        if not DIGITS:
+            return  # handed on
+        low, high = DIGITS[-1], DIGITS[-2]
+        whole = DIGITS[-3] if len(DIGITS) == 3 else Poly.of(0)
+        quotient, scale = whole * B + high * (1 << 16) + low, 1 << path.choose(machine.poly(divisor.cell, "shift"))
+    else:
+        parts = [machine.locals[f"el_divide_small_q32.{name}"].poly for name in ("whole", "high", "middle", "low")]
+        quotient = parts[0] * B + parts[1] * (1 << 20) + parts[2] * (1 << 10) + parts[3]
+        scale = 1
+    negative = not path.decide(n, -n - 1)
+    backwards = machine.poly(divisor.cell, "d").interval()[1] < 0
+    if is_by_digits(machine):
+        signed = -quotient if negative != backwards else quotient
+    else:
+        signed, quotient = quotient, -quotient if negative != backwards else quotient
+    rest = ((-n if negative else n) * B - quotient * d) * scale
+    path.prove(rest, "Q |d| <= 2^32 |n|")
+    path.prove(d * scale - 1 - rest, "2^32 |n| < (Q + 1) |d|")
+    difference = result.poly - signed
+    path.prove(difference - path.floor(difference, B * B) * (B * B), "the result is Q modulo 2^64", zero=True)
+
+
+def digit_of(bits: int) -> Lemma:
+    """|digit| < 2^bits, of either sign."""
+
+    def lemma(machine: Machine, value: Number) -> Number:
+        machine.path.decide(value.poly, -value.poly - 1)
+        for bound in (2**bits - 1 - value.poly, value.poly + 2**bits - 1):
+            machine.path.prove(bound, f"a digit of {bits} bits")
+        return value
+
+    return lemma
+
+
+SMALL_LEMMAS = {
+    f"el_divide_small_q32.{name}": digit_of(bits) for name, bits in (("high", 12), ("middle", 10), ("low", 10))
+}
+
+
+def small(core: str) -> Subject:
+    function, own = "el_divide_small_q32", ["el_divide_small_q32"]
+    if core:
+        contracts_of = {"el_divide_digit": digit, "el_divide_i32_q32": asked_for}
+        return Subject(FILE, function, small_domain, small_check, own, contracts_of, core=core)
+    return Subject(FILE, function, small_domain, small_check, own, lemmas=SMALL_LEMMAS)
+
+
+def i32_domain(machine: Machine) -> list[Any]:
+    path = machine.path
+    sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
+    d = path.atom("d", 1, 2**31 - 1) * sign
+    return [machine.number("int32_t", "n", -(2**31) + 1), machine.exactly("int32_t", d)]
+
+
+def divided_alike(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_q32, proven above: it is asked for n / d, both with d's sign."""
+    asked, fraction, divisor = arguments
+    n, d = (machine.scopes[0][name].content.poly for name in "nd")
+    sign = 1 if d.interval()[0] > 0 else -1
+    machine.path.prove(asked.poly - n * sign, "the dividend", zero=True)
+    machine.path.prove(fraction.poly, "no fraction", zero=True)
+    machine.path.prove(contracts.divisor_of(divisor) - d * sign, "the divisor", zero=True)
+    return machine.number("int64_t", "quotient")
+
+
+I32_Q32 = Subject(
+    FILE,
+    "el_divide_i32_q32",
+    i32_domain,
+    modular=["el_divide_i32_q32"],
+    contracts={"el_divide_q32": divided_alike, "el_divisor_make": contracts.divisor_make},
+)
+
+CORES = pytest.mark.parametrize("core", ["", ARMV6M], ids=["divider", "digits"])
+
+
+@CORES
+def test_quotients_by_small_divisors_are_exact(core: str) -> None:
+    small(core).prove()
+
+
+def test_digits_are_exact() -> None:
+    DIGIT.prove()
+
+
+def test_a_divisor_of_its_own() -> None:
+    I32_Q32.prove()
+
+
+@CORES
+def test_the_compiler_agrees_on_small_divisors(core: str) -> None:
+    def domain(machine: Machine) -> list[Any]:
+        """What is handed on would begin with a table."""
+        n, divisor = small_domain(machine)
+        if core:
+            machine.path.assume(machine.poly(divisor.cell, "limit") * (1 << 16) - 1 - n.poly)
+            machine.path.assume(machine.poly(divisor.cell, "limit") * (1 << 16) - 1 + n.poly)
+        return [n, divisor]
+
+    Subject(FILE, "el_divide_small_q32", domain, modular=["el_divide_small_q32"], core=core).agree(count=100)
+
+
+def test_the_compiler_agrees_on_digits() -> None:
+    DIGIT.agree()
+
+
+def test_the_proof_of_small_divisors_can_fail() -> None:
+    small("").fails_with(Fault(HEADER, "(rest - high * d) * (1 << 10)", "(rest - high * d) * (1 << 11)"))
+    small("").fails_with(Fault(HEADER, "EL_SMALL_DIVISOR_BITS = 19", "EL_SMALL_DIVISOR_BITS = 20"))
+    small(ARMV6M).fails_with(Fault(HEADER, "magnitude >> 16 >= divisor->limit", "magnitude >> 16 > divisor->limit"))
+    small(ARMV6M).fails_with(Fault(HEADER, "(n < 0) != (divisor->d < 0)", "n < 0"))
+    DIGIT.fails_with(Fault(HEADER, "while (rest >= divisor->normalised)", "while (rest > divisor->normalised)"))
+    I32_Q32.fails_with(Fault(FILE, "d < 0 ? -n : n", "n"))

@@ -18,6 +18,11 @@ D has a part for each thing that is cut off: e, of each step, 2^32 dx - step dy,
     4 bits            D = e t + f dy, t that of row k, 0 <= f <= 15
     6 and 8 bits      D = e k + f, 0 <= f < dy
 
+Short edges are made in Q20 and are exact in the same way, with 2^20 for 2^32, 48 units less added first, and steps that
+may be too high:
+
+    short             D = e t + f dy + 47 g, -dy <= 2 e <= 3 dy
+
 * From c, i >= c if and only if E >= 0: (c - 1) S dy < n <= c S dy. A left edge takes the pixels with E >= 0, a right
   edge leaves them: E = 0 belongs to left edges only.
 * el_first_centre(a) <= j if and only if the centre of row j is not above a: with rows [first(top), first(bottom)), a
@@ -98,37 +103,20 @@ def make_domain(machine: Machine) -> list[Any]:
 
 
 def step_of(machine: Machine, arguments: list[Any]) -> Number:
-    """el_edge_step_q32, proven below: of its edge's direction, and too low by e."""
+    """el_ratio_q32; and that a step has its edge's direction."""
     dx, dy = (argument.poly for argument in arguments)
     path = machine.path
-    step = path.atom("step", -(2**63), 2**63 - 1)
-    for bound in _step_errors(machine, dx, dy, step):
-        path.assume(bound)
-    path.assume(step if path.holds(dx) else -step - 1)
-    return machine.exactly("int64_t", step)
+    step = contracts.ratio_q32(machine, arguments)
+    has_direction(path, step.poly if path.holds(dx) else -step.poly - 1, dy)
+    return step
 
 
-SHORT = ("EL_EDGE_SHORT", "EL_EDGE_NARROW")
-
-
-def is_short(machine: Machine, dx: Poly, dy: Poly) -> bool:
-    path = machine.path
-    short, narrow = (machine.constant(machine.unit.constants[name]) for name in SHORT)
-    return (
-        path.decide(short - dy, dy - short - 1)
-        and path.decide(narrow - dx, dx - narrow - 1)
-        and path.decide(dx + narrow, -dx - narrow - 1)
-    )
-
-
-def _step_errors(machine: Machine, dx: Poly, dy: Poly, step: Poly) -> list[Poly]:
-    """What is not negative about e = 2^32 dx - step dy: it is below dy, or, of a short edge, at most |dx| dy."""
-    path = machine.path
-    e = dx * WORD - step * dy
-    if not is_short(machine, dx, dy):
-        return [e, dy - 1 - e]
-    magnitude = dx if path.holds(dx) else -dx
-    return [e, magnitude * dy - e]
+def has_direction(path: Path, forward: Poly, dy: Poly) -> None:
+    """forward >= 0, from forward dy > -dy."""
+    if not path.decide(forward, -forward - 1):
+        path.assume_product(-forward - 1, dy)
+        path.prove(Poly.of(-1), "a step has its edge's direction")
+        raise Infeasible
 
 
 def times(machine: Machine, arguments: list[Any]) -> Number:
@@ -195,31 +183,23 @@ def make_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     path.prove(d, "D >= 0")
     step = machine.poly(edge, "step_q32")
     e = dx * WORD - step * dy
-    if ends.scale == 16 and is_short(machine, dx, dy):
-        # e t <= |dx| dy (dy - 1).
-        short, narrow = (machine.constant(machine.unit.constants[name]) for name in SHORT)
-        magnitude = dx if path.holds(dx) else -dx
-        area = path.atom("|dx| dy", 0, narrow * short)
-        path.assume_product(narrow - magnitude, dy)
-        path.prove(narrow * short - magnitude * dy, "|dx| dy")
-        path.assume(area - magnitude * dy, zero=True)
-        path.assume_product(area - e, t)
-        path.assume_product(narrow * short - area, t)
-        path.prove(short - 1 - t, "t < dy")
-    else:
-        path.assume_product(dy - 1 - e, t if ends.scale == 16 else k)
-        path.assume_product(dy, dy - 1 - t)
-        path.assume_product(2 * ends.guard - dy, dy)
-        path.assume_product(dy, 4079 - k)
+    path.assume_product(dy - 1 - e, t if ends.scale == 16 else k)
+    path.assume_product(dy, dy - 1 - t)
+    path.assume_product(2 * ends.guard - dy, dy)
+    path.assume_product(dy, 4079 - k)
     path.prove(WORD - grid - d, "D <= 2^32 - g")
+    check_whole_part(machine, ends, machine.poly(edge, "x_q32") + step * k, WORD, (grid, number, n))
 
-    # The whole part.
-    x = machine.poly(edge, "x_q32") + step * k
-    c, fraction = path.atom("c", -(2**40), 2**40), path.atom("F", 0, WORD - 1)
-    path.assume(x - c * WORD - fraction, zero=True)
-    path.assume((x - c * WORD - fraction) * dy, zero=True)
+
+def check_whole_part(machine: Machine, ends: Ends, x: Poly, one: int, numbers: tuple[Poly, Poly, Poly]) -> None:
+    """The whole part of x, in units of 1 / one, is the first pixel that is not left of the edge."""
+    path, dy = machine.path, ends.dy
+    grid, number, n = numbers
+    c, fraction = path.atom("c", -(2**40), 2**40), path.atom("F", 0, one - 1)
+    path.assume(x - c * one - fraction, zero=True)
+    path.assume((x - c * one - fraction) * dy, zero=True)
     path.assume_product(fraction, dy)
-    path.assume_product(WORD - 1 - fraction, dy)
+    path.assume_product(one - 1 - fraction, dy)
     path.prove(grid * c - number, "c is not left of the edge")
     path.prove(number - 1 - grid * (c - 1), "c - 1 is")
     s = ends.scale
@@ -232,31 +212,98 @@ def make_check(machine: Machine, arguments: list[Any], _: Any) -> None:
             path.prove(Poly.of(-1), "|c| <= 2041 on the edge's own rows")
 
 
-def step_domain(machine: Machine) -> list[Any]:
+SHORT = ("EL_EDGE_SHORT", "EL_EDGE_NARROW")
+Q20 = 1 << 20
+
+
+def short_domain(machine: Machine) -> list[Any]:
+    ends = Ends(machine)
     path = machine.path
-    _, guard = limits(machine)
-    dx, dy = path.atom("dx", -2 * guard, 2 * guard), path.atom("dy", 1, 2 * guard)
-    path.decide(dx, -dx - 1)
-    is_short(machine, dx, dy)
-    return [machine.exactly("int32_t", dx), machine.exactly("uint32_t", dy)]
+    short, narrow = (machine.constant(machine.unit.constants[name]) for name in SHORT)
+    for bound in (short - ends.dy, narrow - ends.dx, narrow + ends.dx):
+        path.assume(bound)
+    ENDS[id(path)] = ends
+    edge = Pointer([machine.struct("el_edge")])
+    return [edge, *(machine.exactly("int32_t", n) for n in (ends.x0, ends.y0, ends.x1, ends.y1, ends.row))]
 
 
-def step_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    dx, dy = (argument.poly for argument in arguments)
-    path, step = machine.path, result.poly
-    forward = step if path.holds(dx) else -step - 1
-    if not path.decide(forward, -forward - 1):
-        path.assume_product(-forward - 1, dy)
-        path.prove(Poly.of(-1), "a step has its edge's direction")
-        raise Infeasible
-    for reciprocal, (_, of) in path.quotients.items():
-        if of.terms == dy.terms:
-            # Of a short edge: 1 <= 2^32 - r dy <= dy, times |dx|.
-            rest = WORD - Poly({(reciprocal,): 1}) * dy
-            path.assume_product(dx if path.holds(dx) else -dx, rest - 1)
-            path.assume_product(dx if path.holds(dx) else -dx, dy - rest)
-    for bound in _step_errors(machine, dx, dy, step):
-        path.prove(bound, "0 <= e, and not above what it may be")
+def short_step_lemma(machine: Machine, step_q20: Number) -> Number:
+    """2^11 e = dx (2^31 - r dy) + dy (dx r - 2^11 step): what the reciprocal lacks, and what is cut off."""
+    path, step = machine.path, step_q20.poly
+    if step.constant is not None:
+        return step_q20
+    ends = ENDS[id(path)]
+    dx, dy = ends.dx, ends.dy
+    ((reciprocal, _),) = ((Poly({(atom,): 1}), of) for atom, (_, of) in path.quotients.items() if of.terms == dy.terms)
+    lacks, cut_off = 2**31 - reciprocal * dy, dx * reciprocal - 2**11 * step
+    right = path.holds(dx)
+    magnitude = dx if right else -dx
+    path.assume_product(magnitude, lacks - 1)
+    path.assume_product(magnitude, dy - lacks)
+    path.assume_product(cut_off, dy)
+    path.assume_product(2**11 - 1 - cut_off, dy)
+    narrow = machine.constant(machine.unit.constants["EL_EDGE_NARROW"])
+    path.assume_product(narrow - magnitude, dy)
+    e = dx * Q20 - step * dy
+    for bound in (2 * e + dy, 3 * dy - 2 * e):
+        path.prove(bound, "-dy <= 2 e <= 3 dy")
+        path.assume(bound)
+        path.assume_product(bound, ends.t)
+    path.prove(reciprocal - 1, "a reciprocal is not 0")
+    path.assume_product(magnitude if right else magnitude - 1, reciprocal)
+    forward = step if right else -step
+    path.prove(forward if right else forward - 1, "a step has its edge's direction")
+    path.assume_product(forward, ends.dy - 1 - ends.t)
+    path.assume_product(forward, ends.t)
+    path.assume_product(dy, ends.dy - 1 - ends.t)
+    path.assume_product(511 - dy, dy)
+    return step_q20
+
+
+def short_aside_lemma(machine: Machine, aside: Number) -> Number:
+    """The first x is within the guard band, which its product with dy decides."""
+    path = machine.path
+    if aside.poly.constant is not None:
+        return aside
+    ends = ENDS[id(path)]
+    step = machine.locals["el_edge_make_short.step_q20"].poly
+    f = step * ends.t - aside.poly * 16
+    path.assume_product(f, ends.dy)
+    path.assume_product(15 - f, ends.dy)
+    x = (ends.x0 + 8) * 2**16 + aside.poly
+    for bound in (2042 * Q20 - x, x + 2042 * Q20):
+        if not path.decide(bound, -bound - 1):
+            path.assume_product(-bound - 1, ends.dy)
+            path.prove(Poly.of(-1), "the first x is within the guard band")
+            raise Infeasible
+    return aside
+
+
+def short_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    path = machine.path
+    ends = ENDS.pop(id(path))
+    edge = arguments[0].cell
+    x, step, aside = (machine.locals[f"el_edge_make_short.{name}"].poly for name in ("x_q20", "step_q20", "aside"))
+    path.prove(machine.poly(edge, "x_q32") - x * 2**12, "x in Q32", zero=True)
+    path.prove(machine.poly(edge, "step_q32") - step * 2**12, "the step in Q32", zero=True)
+    k, t, n = ends.stepped(machine)
+    dx, dy = ends.dx, ends.dy
+    grid = dy * 16
+    e, f = dx * Q20 - step * dy, step * ends.t - aside * 16
+    d = n * Q20 + grid * (Q20 - 1) - grid * (x + step * k)
+    path.prove(d - e * t - f * dy - 47 * grid, "D is the sum of what is cut off", zero=True)
+    for bound in (2 * e + dy, 3 * dy - 2 * e):
+        path.assume_product(bound, t)
+    path.assume_product(dy, dy - 1 - t)
+    short = machine.constant(machine.unit.constants["EL_EDGE_SHORT"])
+    path.assume_product(short - 1 - t, dy)
+    path.prove(d, "D >= 0")
+    path.prove(Q20 - grid - d, "D <= 2^20 - g")
+    check_whole_part(machine, ends, x + step * k, Q20, (grid, n, n))
+
+
+def q20_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    machine.path.prove(result.poly - arguments[0].poly * 2**12, "the same number", zero=True)
 
 
 def next_domain(machine: Machine) -> list[Any]:
@@ -304,17 +351,28 @@ MAKE = Subject(
     make_check,
     modular=["el_multiply_u16"],
     contracts={
-        "el_edge_step_q32": step_of,
+        "el_ratio_q32": step_of,
         "el_multiply_u16": times,
         "el_wide_ratio_q32": contracts.ratio_q32,
     },
 )
-STEP = Subject(
+MAKE_SHORT = Subject(
     FILE,
-    "el_edge_step_q32",
-    step_domain,
-    step_check,
-    contracts={"el_ratio_q32": contracts.ratio_q32, "el_reciprocal_of_short": contracts.reciprocal_of_short},
+    "el_edge_make_short",
+    short_domain,
+    short_check,
+    contracts={
+        "el_reciprocal_of_short": contracts.reciprocal_of_short,
+        "el_product_down_11": contracts.product_down_11,
+        "el_q20_to_q32": lambda machine, arguments: machine.exactly("int64_t", arguments[0].poly * 2**12),
+    },
+    lemmas={
+        "el_edge_make_short.step_q20": short_step_lemma,
+        "el_edge_make_short.aside": short_aside_lemma,
+    },
+)
+WIDEN = Subject(
+    FILE, "el_q20_to_q32", lambda machine: [machine.number("int32_t", "a_q20")], q20_check, ["el_q20_to_q32"]
 )
 NEXT = Subject(FILE, "el_edge_next_row", next_domain, next_check)
 WHOLE = Subject(FILE, "el_edge_x", x_domain, x_check)
@@ -328,8 +386,9 @@ def test_every_edge(subject: Subject, bits: int) -> None:
     subject.prove(bits)
 
 
-def test_every_step_of_an_edge() -> None:
-    STEP.prove()
+def test_every_short_edge() -> None:
+    MAKE_SHORT.prove()
+    WIDEN.prove()
 
 
 @EVERY_PRECISION
@@ -338,8 +397,9 @@ def test_the_compiler_agrees(subject: Subject, bits: int) -> None:
     subject.agree(bits, count=200)
 
 
-def test_the_compiler_agrees_on_steps() -> None:
-    STEP.agree(count=200)
+def test_the_compiler_agrees_on_short_edges() -> None:
+    MAKE_SHORT.agree(count=200)
+    WIDEN.agree(count=200)
 
 
 @EVERY_PRECISION
@@ -385,13 +445,15 @@ def test_the_proof_can_fail_with_more_bits(old: str, new: str, bits: int) -> Non
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ("-(int64_t)(product + aside)", "-(int64_t)product"),
-        ("EL_EDGE_SHORT = 511", "EL_EDGE_SHORT = 512"),
+        ("+ aside - 48;", "+ aside - 14;"),
+        ("+ aside - 48;", "+ aside - 82;"),
+        ("EL_EDGE_SHORT = 511", "EL_EDGE_SHORT = 800"),
+        ("EL_EDGE_NARROW = 1023", "EL_EDGE_NARROW = 2047"),
     ],
-    ids=["to the left", "too long"],
+    ids=["less", "more", "too long", "too wide"],
 )
-def test_the_proof_of_steps_can_fail(old: str, new: str) -> None:
-    STEP.fails_with(Fault(EDGE, old, new))
+def test_the_proof_of_short_edges_can_fail(old: str, new: str) -> None:
+    MAKE_SHORT.fails_with(Fault(EDGE, old, new))
 
 
 def coverage(bias: int) -> Subject:

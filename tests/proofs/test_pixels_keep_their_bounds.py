@@ -145,41 +145,61 @@ PERSPECTIVE = Subject(
     modular=["el_perspective_next_row"],
 )
 
-# --- where the lower part begins --------------------------------------------------------------------------------------
+# --- down the sides ---------------------------------------------------------------------------------------------------
+
+MOST_ROWS = 3
+SIDES: dict[int, dict[str, tuple[Poly, Poly]]] = {}
 
 
-def bend_domain(machine: Machine) -> list[Any]:
-    """Edges anywhere, with any step."""
+def side_domain(machine: Machine) -> list[Any]:
+    """A side anywhere that a row of its edge's or the row after can be, with any step, and a corner in it or below."""
     path = machine.path
-    triangle = machine.struct("el_triangle")
-    edges = {"left": machine.struct("el_edge"), "right": machine.struct("el_edge"), "lower": triangle.content["lower"]}
-    for name, edge in edges.items():
-        for part in ("x_q32", "step_q32"):
-            machine.put(edge.content[part], path.atom(f"{name}.{part}", -(2**63), 2**63 - 1))
-    machine.put(triangle.content["short_is_left"], path.choose(path.atom("short_is_left", 0, 1)))
-    EDGES[id(path)] = {name: numbers_of(machine, edge) for name, edge in edges.items()}
-    return [Pointer([triangle]), Pointer([edges["left"]]), Pointer([edges["right"]])]
-
-
-EDGES: dict[int, dict[str, tuple[Poly, Poly]]] = {}
+    guard = machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+    triangle, edge = machine.struct("el_triangle"), machine.struct("el_edge")
+    edges = {"edge": edge, "lower": triangle.content["lower"]}
+    for name, cell in edges.items():
+        machine.put(cell.content["x_q32"], path.atom(f"{name}.x", -2041 * WORD, 2042 * WORD - 1))
+        machine.put(cell.content["step_q32"], path.atom(f"{name}.step", -2 * guard * WORD, 2 * guard * WORD))
+    SIDES[id(path)] = {name: numbers_of(machine, cell) for name, cell in edges.items()}
+    rows = path.choose(path.atom("rows", 1, MOST_ROWS))
+    upper = path.choose(path.atom("upper", 1, MOST_ROWS + 1))
+    columns = machine.array("uint16_t", [0] * MOST_ROWS)
+    return [
+        Pointer([triangle]),
+        Pointer([edge]),
+        columns,
+        machine.exactly("int32_t", rows),
+        machine.exactly("int32_t", upper),
+    ]
 
 
 def numbers_of(machine: Machine, edge: Any) -> tuple[Poly, Poly]:
     return machine.poly(edge, "x_q32"), machine.poly(edge, "step_q32")
 
 
-def bend_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """One side goes on as the lower edge, the other as it was; it does not happen again."""
-    triangle, left, right = (argument.cell for argument in arguments)
-    before = EDGES.pop(id(machine.path))
-    bends = machine.poly(triangle, "short_is_left").known
-    for side, of in ((left, "lower" if bends else "left"), (right, "right" if bends else "lower")):
-        for got, expected in zip(numbers_of(machine, side), before[of], strict=True):
-            require((got - expected).constant == 0, f"it is {of}")
-    require(machine.poly(triangle, "y_middle").known == 2**15 - 1, "no middle is left")
+def side_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """Each row has its edge's column; the sum is theirs; what is left is the state of the row after them."""
+    path = machine.path
+    edges = SIDES.pop(id(path))
+    rows, upper = arguments[3].poly.known, arguments[4].poly.known
+    x, step = edges["edge"]
+    total = Poly.of(0)
+    for row in range(rows):
+        column = path.floor(x, WORD)
+        congruent(machine.poly(arguments[2].cells[row]), column, 1 << 16, "the edge's column")
+        total += column
+        x += step
+        if row + 1 == upper:
+            x, step = edges["lower"]
+    congruent(result.poly, total, WORD, "their sum")
+    after = numbers_of(machine, arguments[1].cell)
+    require((after[0] - x).constant == 0 and (after[1] - step).constant == 0, "the edge of the next row")
+    if rows >= upper:
+        middle = machine.poly(arguments[0].cell, "y_middle")
+        require(middle.known == 2**15 - 1, "no middle is left")
 
 
-BEND = Subject(SPANS, "bend", bend_domain, bend_check)
+SIDE = Subject(SPANS, "walk_bent", side_domain, side_check, modular=["walk", "walk_bent"])
 
 # --- a pixel ----------------------------------------------------------------------------------------------------------
 
@@ -383,7 +403,7 @@ def points_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 SUBJECTS = {
     "row": ROW,
     "perspective": PERSPECTIVE,
-    "bend": BEND,
+    "side": SIDE,
     "modulate": modulate(False),
     "modulate, dithered": modulate(True),
     "coloured": coloured(False),
@@ -403,7 +423,7 @@ def test_all_values(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["row", "perspective", "bend", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
+    "name", ["row", "perspective", "side", "modulate", "modulate, dithered", "coloured", "coloured, dithered", "lit"]
 )
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
@@ -425,10 +445,13 @@ def test_the_compiler_agrees(name: str) -> None:
             "perspective->v.value += perspective->v.dy",
             "perspective->v.value += perspective->u.dy",
         ),
-        ("bend", SPANS, "*left = triangle->lower", "*right = triangle->lower"),
-        ("bend", SPANS, "triangle->y_middle = INT16_MAX", "triangle->y_middle = 0"),
+        ("side", SPANS, "*edge = triangle->lower", "edge->x_q32 = triangle->lower.x_q32"),
+        ("side", SPANS, "triangle->y_middle = INT16_MAX", "triangle->y_middle = 0"),
+        ("side", SPANS, "if (rows < upper)", "if (rows <= upper)"),
+        ("side", SPANS, "walk(edge, x + upper, rows - upper)", "walk(edge, x, rows - upper)"),
+        ("side", "raster/edge.h", "edge->x_q32 += edge->step_q32", "edge->x_q32 += edge->step_q32 + 1"),
         ("modulate", TEXTURE, "(light >> 24) + 1U", "(light >> 24) + 10U"),
-        ("coloured", FILL, "v->green >> 26 << 5", "v->green >> 25 << 5"),
+        ("coloured", FILL, "v->red >> 27 << 6", "v->red >> 27 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
         ("texel", TEXTURE, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
         ("texel", TEXTURE, "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),

@@ -114,7 +114,7 @@ FRAME = Subject(
 
 
 class Quotients:
-    """The contract of `divide` and el_divide_i32_q32: value f / A, truncated, modulo 2^64; it remembers both."""
+    """The contract of `divide` and el_divide_small_q32: value f / A, truncated, modulo 2^64; it remembers both."""
 
     def __init__(self, area: Poly) -> None:
         self.area = area
@@ -195,7 +195,6 @@ def prepared(machine: Machine, values: list[Poly], corner: Any, small: bool) -> 
     exact = {
         "anchor_of": anchored,
         "divide": quotients.divide,
-        "el_divide_i32_q32": quotients.divide,
         "el_plane_times": contracts.plane_times,
         "el_multiply_u64": contracts.multiply_u64,
     }
@@ -368,14 +367,14 @@ CHANNEL_ERROR = 4080
 
 # Their own proofs are elsewhere; samples execute them.
 DIVISION = [
-    "divide", "el_divide_q32", "el_divide_wide_q32", "el_divide_i32_q32", "magnitude_of", "el_abs_u64",
+    "divide", "el_divide_q32", "el_divide_wide_q32", "magnitude_of", "el_abs_u64",
     "el_divide_words", "el_reciprocal_word", "room_within_small", "el_plane_times", "el_multiply_u64",
 ]  # fmt: skip
 
 
 # The sum of two parts is meant modulo 2^64.
-GRADIENTS = ["wide_gradient", "small_gradient"]
-LEMMAS = {f"{kind}_gradient.{name}": gradient_lemma for kind in ("wide", "small") for name in "ab"}
+GRADIENTS = ["wide_gradient"]
+LEMMAS = {f"wide_gradient.{name}": gradient_lemma for name in "ab"}
 
 
 def plane(fraction: bool) -> Subject:
@@ -396,7 +395,7 @@ def depth(small: bool, core: str = "") -> Subject:
 
 def colour(small: bool, core: str = "") -> Subject:
     domain = short_domain("el_channel", 255 * 256, small)
-    modular = ["el_channel_make", "to_q24", *GRADIENTS, *DIVISION]
+    modular = ["el_channel_make", "el_q32_to_q24", *GRADIENTS, *DIVISION]
     return Subject(FILE, "el_channel_make", domain, channel_check, modular, lemmas=LEMMAS, core=core)
 
 
@@ -484,7 +483,7 @@ def test_the_proof_can_fail(bits: int) -> None:
     plane(False).fails_with(Fault(FILE, ".rows = frame->row - row,", ".rows = frame->row - row - 1,"), bits)
     plane(True).fails_with(Fault(FILE, "int64_t a = (d1 * frame->dy2", "int64_t a = 8 * (d1 * frame->dy2"), bits)
     plane(False).fails_with(Fault(FILE, "(g->dx, at->columns)", "(g->dx, at->columns + 1)"), bits)
-    colour(False).fails_with(Fault(FILE, "(value + 0x8000U) >> 16", "(value + 0x7FFFU) >> 16"), bits)
+    colour(False).fails_with(Fault("raster/plane.h", "(value + 0x8000U) >> 16", "(value + 0x7FFFU) >> 16"), bits)
     DIVIDE.fails_with(Fault(FILE, "value >> fraction_bits", "value / (1 << fraction_bits) + 1"), bits)
 
 
@@ -492,10 +491,177 @@ def test_the_proof_of_small_triangles_can_fail() -> None:
     """Four times the size would be off by too much; a term too few is found as in the wide way."""
     depth(True).fails_with(Fault("raster/plane.h", "4 ? 1023 : -1", "4 ? 4096 : -1"))
     FRAME.fails_with(Fault(FILE, "(EL_SMALL_SUB + difference)", "(EL_SMALL_SUB + 1 + difference)"))
-    text = "+ el_multiply_u64(per_y, at->to_centre_y)"
+    text = "+ el_multiply_u64(g->dy, at->to_centre_y)"
     depth(True).fails_with(Fault(FILE, text, text.replace("centre_y", "centre_x")))
     depth(True, SMALL_CODE).fails_with(Fault(FILE, "by_parts ? 1 : EL_SUBPIXELS", "EL_SUBPIXELS"))
-    colour(True).fails_with(Fault(FILE, "g->dy = per_y << EL_SUBPIXEL_BITS", "g->dy = per_y << 5"))
+    colour(True).fails_with(Fault(FILE, "g->dy <<= EL_SUBPIXEL_BITS", "g->dy <<= 5"))
+
+
+# --- the short way of small triangles: Z as by parts ------------------------------------------------------------------
+
+SMALL_FILE = "raster/triangle.c"
+
+
+def small_frame(machine: Machine, values: list[Poly]) -> Pointer:
+    """A small shape anywhere in the guard band, from one of its rows on."""
+    path = machine.path
+    guard, short, narrow = (
+        machine.constant(machine.unit.constants[name]) for name in ("EL_GUARD_SUB", "EL_EDGE_SHORT", "EL_EDGE_NARROW")
+    )
+    dy2 = path.atom("dy2", 1, short)
+    dx1, dx2 = (path.atom(name, -narrow, narrow) for name in ("dx1", "dx2"))
+    dy1 = path.atom("dy1", 0, short)
+    path.assume(dy2 - dy1)
+    x0, y0, row = path.atom("x0", -guard, guard), path.atom("y0", -guard, guard), path.atom("row", -SCREEN, SCREEN)
+    below = row * 16 + 8 - y0
+    path.assume(below)
+    path.assume(dy2 - 1 - below)
+    shape = machine.struct("el_small_shape", dx1=dx1, dy1=dy1, dx2=dx2, dy2=dy2)
+    frame = machine.struct("el_small_frame", x0=x0, y0=y0, row=row)
+    machine.put(frame.content["shape"], shape)
+    area = dx1 * dy2 - dx2 * dy1
+    if area.constant is not None:
+        path.assume(area * area - 1)
+        machine.put(frame.content["area"], machine.call("el_small_divisor_make", machine.exactly("int32_t", area)))
+        return Pointer([frame])
+    quotients = Quotients(area)
+    machine.contracts = {
+        "el_divide_small_q32": quotients.divide,
+        "el_multiply_u64": contracts.multiply_u64,
+        "el_multiply_u16": contracts.multiply_u16,
+    }
+    d = [value - values[0] for value in values]
+    SMALL[id(path)] = Small(quotients, (d[1] * dy2 - d[2] * dy1, d[2] * dx1 - d[1] * dx2), (x0, y0, row), values[0])
+    return Pointer([frame])
+
+
+@dataclass(frozen=True)
+class Small:
+    quotients: Quotients
+    dividends: tuple[Poly, Poly]
+    start: tuple[Poly, Poly, Poly]  # the top corner, and the first row
+    first: Poly  # the value there
+
+
+SMALL: dict[int, Small] = {}
+
+
+def small_domain(struct: str, most: int) -> Any:
+    def domain(machine: Machine) -> list[Any]:
+        values = [machine.path.atom(f"v{i}", 0, most) for i in range(3)]
+        frame = small_frame(machine, values)
+        numbers = [machine.exactly("int32_t", value) for value in values]
+        return [Pointer([machine.struct(struct)]), frame, *numbers]
+
+    return domain
+
+
+def small_parts(machine: Machine, small: Small) -> tuple[list[Poly], list[Poly], list[Poly]]:
+    """The two quotients, the first corner's pixel, and the way from there to its centre."""
+    for (asked, _), dividend in zip(small.quotients.made, small.dividends, strict=True):
+        machine.path.prove(asked - dividend, "the dividend, of the sign that it has by the area", zero=True)
+    pixel = [machine.path.floor(at, 16) for at in small.start[:2]]
+    to_centre = [at * 16 + 8 - corner for at, corner in zip(pixel, small.start[:2], strict=True)]
+    return [quotient for _, quotient in small.quotients.made], pixel, to_centre
+
+
+def small_plane_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    small = SMALL.pop(id(machine.path))
+    (qx, qy), _, _ = small_parts(machine, small)
+    plane = arguments[0].cell.content
+    x0, y0, row = small.start
+    i, j = machine.path.atom("i", 0, SCREEN - 1), machine.path.atom("j", 0, SCREEN - 1)
+    dx, dy = machine.poly(plane["dx"]), machine.poly(plane["dy"])
+    z = small.first * WORD + qx * (i * 16 + 8 - x0) + qy * (j * 16 + 8 - y0)
+    congruent(machine.poly(plane["value"]) + dx * i + dy * (j - row), z, RING, "the value is Z modulo 2^64")
+
+
+def small_channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    small = SMALL.pop(id(machine.path))
+    (qx, qy), (column, first_row), (to_x, to_y) = small_parts(machine, small)
+    channel = arguments[0].cell.content
+    i, j = machine.path.atom("i", 0, SCREEN - 1), machine.path.atom("j", 0, SCREEN - 1)
+    offset, across, down = (
+        machine.path.floor(part + 2**15, 2**16) for part in (qx * to_x + qy * to_y, qx * 16, qy * 16)
+    )
+    dx, dy = machine.poly(channel["dx"]), machine.poly(channel["dy"])
+    got = machine.poly(channel["value"]) + dx * i + dy * (j - small.start[2])
+    z = small.first * 2**16 + HALF_Q24 + offset + across * (i - column) + down * (j - first_row)
+    congruent(got, z, WORD, "the value is Z, rounded, modulo 2^32")
+
+
+# Differences of small numbers are signed, and fit; sums of products are meant modulo 2^64.
+SMALL_MODULAR = [
+    "el_small_plane_make",
+    "el_small_channel_make",
+    "el_q32_to_q24",
+    "el_divide_small_q32",
+    "el_multiply_u64",
+    "el_multiply_u16",
+]
+SMALL_DEPTH = Subject(
+    SMALL_FILE, "el_small_plane_make", small_domain("el_plane", 65535), small_plane_check, SMALL_MODULAR
+)
+SMALL_COLOUR = Subject(
+    SMALL_FILE, "el_small_channel_make", small_domain("el_channel", 255 * 256), small_channel_check, SMALL_MODULAR
+)
+SHORT_WAYS = pytest.mark.parametrize("subject", [SMALL_DEPTH, SMALL_COLOUR], ids=["depth", "colour"])
+
+
+def shape_domain(machine: Machine) -> list[Any]:
+    most = 2 * machine.constant(machine.unit.constants["EL_GUARD_SUB"])
+    path = machine.path
+    dx1, dx2 = (path.atom(name, -most, most) for name in ("dx1", "dx2"))
+    dy1, dy2 = path.atom("dy1", 0, most), path.atom("dy2", 1, most)
+    path.assume(dy2 - dy1)
+    return [Pointer([machine.struct("el_small_shape", dx1=dx1, dy1=dy1, dx2=dx2, dy2=dy2)])]
+
+
+def shape_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """What is small has short edges, and an area that is at most their box: with v = (1 - dy1 / dy2), ..., a mean."""
+    if result.poly.known == 0:
+        return
+    path = machine.path
+    dx1, dy1, dx2, dy2 = (machine.poly(arguments[0].cell, name) for name in ("dx1", "dy1", "dx2", "dy2"))
+    narrow, short, bits = (
+        machine.constant(machine.unit.constants[name])
+        for name in ("EL_EDGE_NARROW", "EL_EDGE_SHORT", "EL_SMALL_DIVISOR_BITS")
+    )
+    for dx in (dx1, dx2, dx2 - dx1):
+        path.prove(narrow - dx, "narrow")
+        path.prove(narrow + dx, "narrow")
+    path.prove(short - dy2, "short")
+    # The area is dx1 (dy2 - dy1) + (dx1 - dx2) dy1: a mean of widths, times dy2.
+    for sign in (1, -1):
+        path.assume_product(narrow - dx1 * sign, dy2 - dy1)
+        path.assume_product(narrow - (dx1 - dx2) * sign, dy1)
+        path.prove(2**bits - 1 - (dx1 * dy2 - dx2 * dy1) * sign, "the area is a small divisor")
+
+
+SHAPE = Subject(SMALL_FILE, "el_shape_is_small", shape_domain, shape_check, ["el_shape_is_small"])
+
+
+@SHORT_WAYS
+def test_every_small_plane(subject: Subject) -> None:
+    subject.prove()
+
+
+@SHORT_WAYS
+def test_the_compiler_agrees_on_small_planes(subject: Subject) -> None:
+    subject.agree(count=100)
+
+
+def test_what_is_small() -> None:
+    SHAPE.prove()
+    SHAPE.agree()
+
+
+def test_the_proof_of_small_planes_can_fail() -> None:
+    header = "raster/small_plane.h"
+    SMALL_DEPTH.fails_with(Fault(header, "- EL_SUBPIXELS / 2);\n}", "+ EL_SUBPIXELS / 2);\n}"))
+    SMALL_DEPTH.fails_with(Fault(header, "d1 * frame->shape.dy2 -", "d1 * frame->shape.dy1 -"))
+    SMALL_COLOUR.fails_with(Fault(header, "(frame->row - row)", "frame->row"))
+    SHAPE.fails_with(Fault(header, "shape->dy2 <= EL_EDGE_SHORT", "shape->dy2 <= 2 * EL_EDGE_SHORT"))
 
 
 def test_the_proof_finds_an_area_beyond_32_bits() -> None:

@@ -62,6 +62,27 @@ def high_domain(machine: Machine) -> list[Any]:
     return [machine.exactly("int32_t", a), machine.exactly("uint32_t", b)]
 
 
+def down_domain(machine: Machine) -> list[Any]:
+    """el_product_down_11: |a b| < 2^42."""
+    path = machine.path
+    a, b = (
+        path.atom("a", 1 - 2**15, 2**15 - 1),
+        path.atom("b_high", 0, 2**15 - 1) * 2**16 + path.atom("b_low", 0, 65535),
+    )
+    path.decide(a, -a - 1)
+    path.assume(2**42 - 1 - a * b)
+    path.assume(2**42 + a * b)
+    return [machine.exactly("int32_t", a), machine.exactly("int32_t", b)]
+
+
+def down_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """floor(a b / 2^11)."""
+    a, b = (argument.poly for argument in arguments)
+    rest = a * b - result.poly * 2**11
+    machine.path.prove(rest, "not above")
+    machine.path.prove(2**11 - 1 - rest, "not below")
+
+
 def dot_domain(machine: Machine) -> list[Any]:
     """A row's elements in the two parts that the C has of them, the lower one of either sign; |a| up to EL_DOT_MOST in
     sum, so that the upper parts' |high| 2^15 add up to 3 * 2^14 more."""
@@ -149,6 +170,7 @@ def subjects(core: str) -> dict[str, Subject]:
         of_product("el_product_high_u32", factors(UNSIGNED, UNSIGNED), high_check),
         of_product("el_product_i32", factors(SIGNED, SIGNED), exact_check),
         of_product("el_multiply_high_i32_u32", high_domain, high_check),
+        product("el_product_down_11", down_domain, down_check),
         product("el_dot_i32_i16", dot_domain, dot_check, "el_add_halves", "el_dot_i32_i16"),
         product(
             "el_plane_times",
@@ -195,6 +217,7 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_product_high_u32", FIXED_H, "(el_product_u64(a, b) >> 32)", "(el_product_u64(a, b) >> 33)"),
         ("el_product_i32", FIXED_H, "+ (b < 0 ? (uint32_t)a : 0U)", "+ (b < 0 ? 0U - (uint32_t)a : 0U)"),
         ("el_multiply_high_i32_u32", FIXED_H, "- (a < 0 ? b : 0U)", "- (a < 0 ? b - 1U : 0U)"),
+        ("el_product_down_11", FIXED_H, "a * (b >> 16) * (1 << 5)", "a * (b >> 16) * (1 << 4)"),
         ("el_dot_i32_i16", FIXED_H, "(uint32_t)a << 17) >> 17", "(uint32_t)a << 16) >> 16"),
         ("el_dot_i32_i16", FIXED_H, "((int32_t)high >> 17)", "(high >> 17)"),
         ("el_dot_i32_i16", FIXED_H, "EL_DOT_MOST = 0x7FFF0000", "EL_DOT_MOST = 0x7FFF8000"),

@@ -149,6 +149,9 @@ typedef struct el_small_divisor {
 static inline el_small_divisor el_small_divisor_make(int32_t d)
 {
     const uint32_t magnitude = (uint32_t)(d < 0 ? -d : d);
+    if (magnitude >> 16 != 0) {
+        return (el_small_divisor){.d = d};
+    }
     uint32_t normalised = magnitude;
     unsigned shift = 0;
     if (normalised >> 8 == 0) {
@@ -172,7 +175,7 @@ static inline el_small_divisor el_small_divisor_make(int32_t d)
     const int32_t left = (1 << 30) - (int32_t)(guess * normalised);
     return (el_small_divisor){
         .d = d,
-        .limit = magnitude >> 16 == 0 ? magnitude : 0U,
+        .limit = magnitude,
         .normalised = normalised,
         .reciprocal = 2U * guess + (uint32_t)(((int32_t)guess * (left >> 5)) >> 24),
         .shift = (uint8_t)shift,
@@ -221,7 +224,7 @@ static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *di
     }
     const uint32_t high = el_divide_digit(rest, 0, divisor, &rest);
     const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, divisor, &rest);
-    return (n ^ divisor->d) < 0 ? 0 - quotient : quotient;
+    return (n < 0) != (divisor->d < 0) ? 0 - quotient : quotient;
 #else
     /* Signed: each digit has the quotient's sign, and so has the remainder n's, below 2^19 as d is: 2^12 of it fits. */
     /* NOLINTBEGIN(clang-analyzer-core.DivideZero): d is not 0. */

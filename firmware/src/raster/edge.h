@@ -88,8 +88,9 @@ static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int
     const int32_t half = EL_SUBPIXELS / 2;
     const int32_t down = row * EL_SUBPIXELS + half - y0;                                   /* 0 to 510 */
     const int32_t step_q20 = el_product_down_11(x1 - x0, el_reciprocal_of_short(y1 - y0)); /* |step| < 1023 * 2^20 */
-    /* (x0 - half + down dx / dy) / 16, and 1 to be rounded up: |x0 + half| < 2^15, |step * down| < 2^20 * 1024 */
-    const int32_t x_q20 = (x0 + half) * (1 << (20 - EL_SUBPIXEL_BITS)) + ((step_q20 * down) >> EL_SUBPIXEL_BITS) - 48;
+    const int32_t aside = (step_q20 * down) >> EL_SUBPIXEL_BITS;                           /* below 2^20 * 64 */
+    /* (x0 - half + down dx / dy) / 16, and 1 to be rounded up: within +-2041 pixels. */
+    const int32_t x_q20 = (x0 + half) * (1 << (20 - EL_SUBPIXEL_BITS)) + aside - 48;
     edge->x_q32 = el_q20_to_q32(x_q20);
     edge->step_q32 = el_q20_to_q32(step_q20);
 }

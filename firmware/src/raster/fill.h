@@ -15,26 +15,44 @@ enum {
     EL_FILL_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
 };
 
-/* What el_triangle_draw does, of a triangle that has rows in the target: with a texture (fill_texture.c), or without. */
-void el_fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
-void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
-
-/* Where row y of the target begins in its arrays. */
-static inline int32_t el_row_offset(const el_target *target, int32_t y)
+static inline uint8_t el_fill_kind(const el_surface *surface)
 {
-    return (y - target->y) * target->width;
+    _Static_assert(EL_SHADE_GOURAUD << 1 == 2 && EL_SHADE_TEXTURED << 1 == 4 && EL_SHADE_OVERDRAW << 1 == 8,
+                   "a shading's bits are those of its fill");
+    const unsigned kind = (unsigned)surface->shading << 1 & (EL_FILL_COLOURS | EL_FILL_TEXTURE | EL_FILL_COUNT);
+    const bool dithers = surface->dither && (kind & EL_FILL_COLOURS) != 0;
+    const bool depth = surface->depth && (EL_WITH_DEBUG_VIEWS || (kind & EL_FILL_COUNT) == 0);
+    return (uint8_t)(kind | (dithers ? EL_FILL_DITHER : 0U) | (depth ? EL_FILL_DEPTH : 0U));
+}
+
+/* Draws the next rows of a triangle with a texture in the target, EL_SPAN_ROWS at most, and returns how many they are. */
+int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+
+/* A walk along rows of pixels: through the depth where there is a test, else through the colour. The colour lies at a fixed
+ * distance in bytes, so that one register leads to both. */
+typedef struct el_cursor {
+    uint16_t *row;
+    uintptr_t to_colour;
+} el_cursor;
+
+static EL_SPECIALISED el_cursor el_cursor_at(const el_target *target, int32_t y, unsigned kind)
+{
+    uint16_t *const walked = (kind & EL_FILL_DEPTH) != 0 ? target->depth : target->colour;
+    return (el_cursor){
+        .row = walked + (y - target->y) * target->width,
+        .to_colour = (uintptr_t)target->colour - (uintptr_t)walked,
+    };
+}
+
+static EL_SPECIALISED uint16_t *el_colour_at(const el_cursor *cursor, uint16_t *at)
+{
+    return (uint16_t *)((uintptr_t)at + cursor->to_colour);
 }
 
 /* Of the rows that el_spans_next counted as spans, one has no pixel. */
 static inline void el_count_empty(el_stats *stats)
 {
     el_count(&stats->spans, 0U - 1U);
-}
-
-/* Whether more rows follow in the target after a number of spans. */
-static inline bool el_goes_on(const el_triangle *triangle, const el_target *target, int32_t rows)
-{
-    return rows == EL_SPAN_ROWS && triangle->y < triangle->y_end && triangle->y < target->y_end;
 }
 
 /* Rounding to nearest at the end is made once, at the start. Depth gets the bound of its plane's error more than its half
@@ -130,17 +148,26 @@ static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsi
     return values;
 }
 
-/* Whether the pixel at depth[i] is drawn; its depth is stored then. Without EL_FILL_DEPTH there may be no such array. */
-static EL_SPECIALISED bool el_passes(const el_values *values, uint16_t *depth, int32_t i, unsigned kind)
+/* Thumb-2 has conditional instructions, which take their time whether they do something or not: a pixel that is hidden jumps
+ * over its stores instead. */
+#if defined(__thumb2__)
+#define EL_KEEP_BRANCH() __asm__ volatile("")
+#else
+#define EL_KEEP_BRANCH() ((void)0)
+#endif
+
+/* Whether the pixel is drawn, by the depth that is there; its own is stored then. */
+static EL_SPECIALISED bool el_passes(const el_values *values, uint16_t *depth, unsigned kind)
 {
     if ((kind & EL_FILL_DEPTH) == 0) {
         return true;
     }
     const uint32_t z = (uint32_t)(values->z >> 32); /* 0..65535: the plane stays within its corners' range */
-    if (z >= depth[i]) {
+    if (z >= *depth) {
         return false;
     }
-    depth[i] = (uint16_t)z;
+    EL_KEEP_BRANCH();
+    *depth = (uint16_t)z;
     return true;
 }
 

@@ -42,62 +42,60 @@ static EL_SPECIALISED uint16_t modulate(uint32_t texel, const el_values *v, uint
                       lit(texel & 31U, v->blue, threshold_q16, kind));
 }
 
-static EL_SPECIALISED void fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     const texel_source source = source_of(triangle->surface.texture);
-    const int32_t width = target->width;
     uint32_t y = (uint32_t)triangle->y;
-    const int32_t offset = el_row_offset(target, triangle->y);
-    uint16_t *colour = target->colour + offset;
-    uint16_t *depth = target->depth + ((kind & EL_FILL_DEPTH) != 0 ? offset : 0);
-    int32_t rows;
-    do {
-        el_span spans[EL_SPAN_ROWS];
-        rows = el_spans_next(triangle, target, stats, spans);
-        el_slopes s = el_slopes_of(triangle, kind);
-        for (const el_span *span = spans; span < spans + rows; span++) {
-            const int32_t x_end = span->x_end;
-            int32_t x = span->x;
-            if (x < x_end) {
-                el_values v = el_values_at(&s, x, kind);
-                /* In pieces along which texture coordinates are linear. */
-                el_texture_walk walk;
-                el_texture_walk_begin(&walk, triangle, x);
-                do {
-                    const int32_t piece_end = x + el_texture_walk_piece(&walk, x_end - x);
-                    uint32_t u_q16 = (uint32_t)walk.u_q16;
-                    uint32_t v_q16 = (uint32_t)walk.v_q16;
-                    const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
-                    const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
-                    for (; x < piece_end; x++) {
-                        if (el_passes(&v, depth, x, kind)) {
-                            const uint32_t texel = texel_at(&source, u_q16, v_q16);
-                            colour[x] = (kind & EL_FILL_COLOURS) != 0
-                                            ? modulate(texel, &v, el_dither_threshold_q16((uint32_t)x, y), kind)
-                                            : (uint16_t)texel;
-                        }
-                        el_values_add(&v, &s.per_column, kind);
-                        u_q16 += u_step_q16;
-                        v_q16 += v_step_q16;
+    el_cursor cursor = el_cursor_at(target, triangle->y, kind);
+    el_spans spans;
+    const int32_t rows = el_spans_next(triangle, target, stats, &spans);
+    el_slopes s = el_slopes_of(triangle, kind);
+    for (int32_t i = 0; i < rows; i++) {
+        const int32_t x_end = spans.x_end[i];
+        int32_t x = spans.x[i];
+        if (x < x_end) {
+            el_values v = el_values_at(&s, x, kind);
+            /* In pieces along which texture coordinates are linear. */
+            el_texture_walk walk;
+            el_texture_walk_begin(&walk, triangle, x);
+            do {
+                const int32_t length = el_texture_walk_piece(&walk, x_end - x);
+                uint32_t u_q16 = (uint32_t)walk.u_q16;
+                uint32_t v_q16 = (uint32_t)walk.v_q16;
+                const uint32_t u_step_q16 = (uint32_t)walk.u_step_q16;
+                const uint32_t v_step_q16 = (uint32_t)walk.v_step_q16;
+                uint16_t *at = cursor.row + x;
+                x += length;
+                for (const uint16_t *const end = cursor.row + x; at < end; at++) {
+                    if (el_passes(&v, at, kind)) {
+                        const uint32_t texel = texel_at(&source, u_q16, v_q16);
+                        *el_colour_at(&cursor, at) =
+                            (uint16_t)((kind & EL_FILL_COLOURS) != 0
+                                           ? modulate(texel, &v,
+                                                      el_dither_threshold_q16((uint32_t)(at - cursor.row), y), kind)
+                                           : texel);
                     }
-                } while (x < x_end);
-            } else {
-                el_count_empty(stats);
-            }
-            el_values_add(&s.first, &s.per_row, kind);
-            el_perspective_next_row(&triangle->perspective);
-            colour += width;
-            depth += (kind & EL_FILL_DEPTH) != 0 ? width : 0;
-            y++;
+                    el_values_add(&v, &s.per_column, kind);
+                    u_q16 += u_step_q16;
+                    v_q16 += v_step_q16;
+                }
+            } while (x < x_end);
+        } else {
+            el_count_empty(stats);
         }
-        el_slopes_keep(&s, triangle, kind);
-    } while (el_goes_on(triangle, target, rows));
+        el_values_add(&s.first, &s.per_row, kind);
+        el_perspective_next_row(&triangle->perspective);
+        cursor.row += target->width;
+        y++;
+    }
+    el_slopes_keep(&s, triangle, kind);
+    return rows;
 }
 
 #if EL_SMALL_CODE
-void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
-    fill(triangle, target, stats, kind);
+    return fill(triangle, target, stats, kind);
 }
 #else
 /* A function of its own for each kind, as in fill.c. */
@@ -110,20 +108,21 @@ void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *
     DO(lit_dithered_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
 
 #define DEFINE(name, kind)                                                                                             \
-    static __attribute__((noinline)) void fill_##name(el_triangle *triangle, const el_target *target, el_stats *stats) \
+    static __attribute__((noinline))                                                                                   \
+    int32_t fill_##name(el_triangle *triangle, const el_target *target, el_stats *stats)                               \
     {                                                                                                                  \
-        fill(triangle, target, stats, (kind));                                                                         \
+        return fill(triangle, target, stats, (kind));                                                                  \
     }
 FILLS(DEFINE)
 
 #define CALL(name, kind)                                                                                               \
     if (asked == (kind)) {                                                                                             \
-        fill_##name(triangle, target, stats);                                                                          \
-        return;                                                                                                        \
+        return fill_##name(triangle, target, stats);                                                                   \
     }
 
-void el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned asked)
+int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned asked)
 {
     FILLS(CALL)
+    return 0;
 }
 #endif

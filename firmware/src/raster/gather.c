@@ -67,9 +67,12 @@ static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
     return el_shows_back(draw, el_doubled_area(x, y));
 }
 
-/* The mean of `count` vertices' colours, or the triangle's own, under their light. */
-static uint16_t mixed_colour(const el_draw_state *draw, uint16_t index, unsigned count, bool turned)
+/* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
+static __attribute__((noinline)) uint16_t flat_colour(const el_draw_state *draw, uint16_t index,
+                                                      const el_corner corners[3])
 {
+    const unsigned count = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? 3 : 1;
+    const bool turned = is_turned(draw, corners);
     const uint16_t *const vertices = draw->mesh->triangles[index];
     uint32_t sums[3] = {0, 0, 0};
     for (unsigned i = 0; i < count; i++) {
@@ -89,17 +92,18 @@ static uint16_t mixed_colour(const el_draw_state *draw, uint16_t index, unsigned
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
 }
 
-/* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
-static inline uint16_t flat_colour(const el_draw_state *draw, uint16_t index, const el_corner corners[3])
+/* One colour for the triangle where it is not computed: its own, or that of its first vertex. NULL where it is lit, or its
+ * vertices' mean. */
+static inline const uint8_t *plain_colour(const el_draw_state *draw, uint16_t index)
 {
     const el_mesh *const mesh = draw->mesh;
-    const bool mean = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0;
-    if (!EL_SMALL_CODE && !el_is_lit(draw->material) && (mesh->triangle_colours != NULL || !mean)) {
-        const uint8_t *const own = mesh->triangle_colours != NULL ? mesh->triangle_colours[index]
-                                                                  : base_colour(draw, mesh->triangles[index][0]);
-        return el_rgb565(own[0], own[1], own[2]);
+    if (EL_SMALL_CODE || el_is_lit(draw->material)) {
+        return NULL;
     }
-    return mixed_colour(draw, index, mean ? 3 : 1, is_turned(draw, corners));
+    if (mesh->triangle_colours != NULL) {
+        return mesh->triangle_colours[index];
+    }
+    return (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? NULL : base_colour(draw, mesh->triangles[index][0]);
 }
 
 /* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
@@ -113,7 +117,7 @@ static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const u
 }
 
 /* Where the corners of a thin record are, as its vertices would have been listed. */
-static void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
+static __attribute__((noinline)) void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
 {
     uint16_t w[3];
     uint8_t shifts[3];
@@ -139,7 +143,7 @@ static inline void take_point(el_corner *corner, const el_point *point)
 }
 
 /* 1/w of the corners of a textured record. */
-static void gather_reciprocals(const el_record *record, el_corner corners[3])
+static __attribute__((noinline)) void gather_reciprocals(const el_record *record, el_corner corners[3])
 {
     const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
     uint8_t shifts[3];
@@ -150,13 +154,8 @@ static void gather_reciprocals(const el_record *record, el_corner corners[3])
 }
 
 /* Where the corners are; of textured ones 1/w. */
-static inline void gather_points(const el_draw_state *draw, const el_record *record, el_record_kind kind,
-                                 el_corner corners[3])
+static inline void gather_points(const el_record *record, el_record_kind kind, el_corner corners[3])
 {
-    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
-        find_points(draw, record, corners);
-        return;
-    }
     take_point(&corners[0], &record->at.points[0]);
     take_point(&corners[1], &record->at.points[1]);
     take_point(&corners[2], &record->at.points[2]);
@@ -166,7 +165,7 @@ static inline void gather_points(const el_draw_state *draw, const el_record *rec
 }
 
 /* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
-static void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
+static __attribute__((noinline)) void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
                               el_corner corners[3])
 {
     const el_shading shading = el_shading_of(draw);
@@ -203,11 +202,21 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     surface->dither = (material->flags & EL_MATERIAL_DITHER) != 0;
     surface->texture = material->texture;
 
-    gather_points(draw, record, kind, corners);
-    if (shading == EL_SHADE_FLAT) {
-        surface->colour = flat_colour(draw, record->index, corners);
-    } else if (shading != EL_SHADE_OVERDRAW) {
-        gather_attributes(draw, record, kind, corners);
+    const uint8_t *const plain = shading == EL_SHADE_FLAT ? plain_colour(draw, record->index) : NULL;
+    if (plain != NULL) {
+        surface->colour = el_rgb565(plain[0], plain[1], plain[2]);
+    }
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        find_points(draw, record, corners);
+    } else {
+        gather_points(record, kind, corners);
+    }
+    if (plain == NULL) {
+        if (shading == EL_SHADE_FLAT) {
+            surface->colour = flat_colour(draw, record->index, corners);
+        } else if (shading != EL_SHADE_OVERDRAW) {
+            gather_attributes(draw, record, kind, corners);
+        }
     }
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }

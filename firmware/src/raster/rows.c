@@ -1,38 +1,15 @@
-/* A triangle's rows, drawn by the fill of its shading (fill.h), walked without drawing, or sampled. */
+/* A triangle's rows without drawing: walked, and sampled. */
 #include "base/fixed.h"
 #include "raster/fill.h"
 #include "raster/texture_walk.h"
 
-static unsigned kind_of(const el_surface *surface)
-{
-    _Static_assert(EL_SHADE_GOURAUD << 1 == 2 && EL_SHADE_TEXTURED << 1 == 4 && EL_SHADE_OVERDRAW << 1 == 8,
-                   "a shading's bits are those of its fill");
-    const unsigned kind = (unsigned)surface->shading << 1 & (EL_FILL_COLOURS | EL_FILL_TEXTURE | EL_FILL_COUNT);
-    const bool dithers = surface->dither && (kind & EL_FILL_COLOURS) != 0;
-    const bool depth = surface->depth && (EL_WITH_DEBUG_VIEWS || (kind & EL_FILL_COUNT) == 0);
-    return kind | (dithers ? EL_FILL_DITHER : 0U) | (depth ? EL_FILL_DEPTH : 0U);
-}
-
-void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
-{
-    if (triangle->y >= el_min_i32(triangle->y_end, target->y_end)) {
-        return;
-    }
-    const unsigned kind = kind_of(&triangle->surface);
-    if (EL_WITH_TEXTURE && (kind & EL_FILL_TEXTURE) != 0) {
-        el_fill_textured(triangle, target, stats, kind);
-    } else {
-        el_fill(triangle, target, stats, kind);
-    }
-}
-
 void el_triangle_next_row(el_triangle *triangle)
 {
-    const unsigned kind = kind_of(&triangle->surface);
+    const unsigned kind = triangle->kind;
     const el_target row = {.y = triangle->y, .y_end = triangle->y + 1};
     el_stats stats = {0};
-    el_span spans[EL_SPAN_ROWS];
-    (void)el_spans_next(triangle, &row, &stats, spans);
+    el_spans spans;
+    (void)el_spans_next(triangle, &row, &stats, &spans);
     el_slopes slopes = el_slopes_of(triangle, kind);
     el_values_add(&slopes.first, &slopes.per_row, kind);
     el_slopes_keep(&slopes, triangle, kind);
@@ -43,10 +20,10 @@ void el_triangle_next_row(el_triangle *triangle)
 
 void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, el_sample *sample)
 {
-    const unsigned kind = kind_of(&triangle->surface);
+    const unsigned kind = triangle->kind;
     const int32_t begin = el_max_i32(el_edge_x(&triangle->left), 0);
     const int32_t end = el_min_i32(el_edge_x(&triangle->right), width);
-    const el_slopes slopes = el_slopes_of(triangle, kind);
+    el_slopes slopes = el_slopes_of(triangle, kind);
     el_values values = el_values_at(&slopes, begin, kind);
     for (int32_t at = begin; at < x; at++) {
         el_values_add(&values, &slopes.per_column, kind);

@@ -1,9 +1,8 @@
-#include "raster/triangle.h"
-
 #include <stddef.h>
 #include <string.h>
 
 #include "base/fixed.h"
+#include "raster/fill.h"
 #include "raster/small_plane.h"
 
 _Static_assert((EL_EDGE_MAX_ROWS + 3LL) * (EL_SUBPIXEL_BITS == 4 ? 16 : 1) * 2 * EL_GUARD_SUB < 1LL << 32,
@@ -135,6 +134,7 @@ static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const 
     const int32_t y_middle = el_first_centre(o->middle->y);
     const int32_t y_end = el_first_centre(o->bottom->y);
     triangle->surface = *surface;
+    triangle->kind = el_fill_kind(surface);
     triangle->y = (int16_t)y_begin;
     triangle->y_end = (int16_t)y_end;
     triangle->short_is_left = short_is_left;

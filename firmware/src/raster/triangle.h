@@ -50,6 +50,7 @@ typedef struct el_triangle {
     int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none, or it has begun */
     int16_t y_end;
     int16_t x_begin, x_end; /* no row reaches beyond these columns */
+    uint8_t kind;           /* what its pixels need (fill.h) */
     bool short_is_left;     /* the side that bends at y_middle */
     el_edge left, right;    /* of the current part */
     el_edge lower;          /* the lower part's other edge */
