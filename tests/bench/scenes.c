@@ -3,11 +3,13 @@
  *
  * One line per measurement:
  *
- *     SCENE ARENA UV FRAME crc CRC passes N peak BYTES colour BYTES depth BYTES bins BYTES list BYTES ns NANOSECONDS
+ *     SCENE ARENA UV FRAME crc CRC passes N peak BYTES collecting BYTES colour BYTES depth BYTES bins BYTES list BYTES
+ *         ns NANOSECONDS
  *
- * SCENE-again is the second of two equal frames. `peak` is the arena's largest use, of which two bands of colour, one of
- * depth, the bins and the display list have the bytes that are named; the rest is vertices while triangles are collected,
- * and states of triangles while they are drawn: at different times in the same place.
+ * in one line. SCENE-again is the second of two equal frames. `peak` is the arena's largest use, `collecting` its largest
+ * one before the bands of the longest list are drawn; two bands of colour, one of depth, the bins and the display list
+ * have the bytes that are named, at either time. Beside them lie vertices while triangles are collected, and states of
+ * triangles while they are drawn.
  */
 #include "base/crc32.h"
 #include "own_scenes.h"
@@ -27,6 +29,7 @@ static _Alignas(8) uint8_t arena[LARGE_ARENA];
 static el_renderer renderer;
 static uint32_t picture_crc;
 static uint32_t list_bytes;
+static uint32_t collecting_bytes;
 
 static void sink_begin(void *context, uint16_t width, uint16_t height)
 {
@@ -35,6 +38,7 @@ static void sink_begin(void *context, uint16_t width, uint16_t height)
     (void)height;
     picture_crc = 0;
     list_bytes = 0;
+    collecting_bytes = 0;
 }
 
 /* Of a frame that is not measured. */
@@ -49,7 +53,10 @@ static void sink_rows(void *context, el_band *band, unsigned slot)
     bench_stop();
     (void)context;
     picture_crc = el_crc32(picture_crc, band->pixels, (size_t)band->width * band->lines * sizeof band->pixels[0]);
-    list_bytes = renderer.list.used > list_bytes ? renderer.list.used : list_bytes;
+    if (renderer.list.used >= list_bytes) {
+        list_bytes = renderer.list.used;
+        collecting_bytes = el_frame_stats(&renderer)->memory_peak;
+    }
     el_band_release(band, slot);
     bench_start();
 }
@@ -114,6 +121,7 @@ static int measure(const el_scene *scene, uint32_t arena_bytes, uint8_t uv_error
     bench_print_hex(picture_crc);
     print_item(" passes ", stats->passes);
     print_item(" peak ", stats->memory_peak);
+    print_item(" collecting ", collecting_bytes);
     print_item(" colour ", 2 * EL_COLOUR_BAND_BYTES(WIDTH, BAND_LINES));
     print_item(" depth ", EL_DEPTH_BAND_BYTES(WIDTH, BAND_LINES));
     print_item(" bins ", EL_BIN_BYTES(HEIGHT, BAND_LINES));

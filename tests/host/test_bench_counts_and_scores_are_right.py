@@ -146,6 +146,7 @@ def test_more_ram_more_passes_and_another_picture_fail(capsys: pytest.CaptureFix
     frame = first_frame()
     for worse, words in (
         (replace(frame, ram={**frame.ram, "list": frame.ram["list"] + frame.memory_peak // 32}), "bytes of RAM"),
+        (replace(frame, ram={**frame.ram, "states": frame.memory_peak}), "bytes of RAM"),
         (replace(frame, passes=frame.passes + 1), "passes: 2, recorded are 1"),
         (replace(frame, crc="00000000"), "is 00000000, recorded is"),
     ):

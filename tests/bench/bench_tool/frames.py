@@ -48,6 +48,9 @@ TARGETS = {
 }
 
 
+# Of the arena, all the time.
+FIXED_PARTS = ("colour", "depth", "bins", "list")
+
 # Scenes that are the same picture.
 EQUAL = (
     ("teapot", "teapot-again"),
@@ -59,7 +62,8 @@ EQUAL = (
 @dataclass(frozen=True)
 class Frame:
     """One frame of a scene in one configuration. Memory is that of a 32-bit core: `ram` has the arena's parts, in which
-    "beside" is vertices and then states of triangles, and sums up to the arena's largest use."""
+    vertices, as far as they do not fit the depth band, and later states of triangles lie in the same place; states are
+    0 when they take no more than vertices did."""
 
     scene: str
     arena_bytes: int
@@ -79,7 +83,8 @@ class Frame:
 
     @property
     def memory_peak(self) -> int:
-        return sum(self.ram.values())
+        fixed = (self.ram[part] for part in FIXED_PARTS)
+        return sum(fixed) + max(self.ram["vertices"], self.ram["states"])
 
     @property
     def title(self) -> str:
@@ -153,7 +158,9 @@ def measure(machines: Machines, verdicts: Verdicts, cores: Sequence[str] = tuple
 
 def _frame(line: Line, native: Line, bits: int, counts: dict[str, int], splits: dict[str, dict[str, int]]) -> Frame:
     scene, arena_bytes, uv_error_log2, number = line.words
-    ram = {part: int(line.values[part]) for part in ("colour", "depth", "bins", "list")}
+    ram = {part: int(line.values[part]) for part in FIXED_PARTS}
+    fixed, peak, collecting = sum(ram.values()), int(line.values["peak"]), int(line.values["collecting"])
+    ram |= {"vertices": collecting - fixed, "states": peak - fixed if peak > collecting else 0}
     for core, split in splits.items():
         # The markers' own cost, which the count does not have.
         split[REST] += counts[core] - sum(split.values())
@@ -165,7 +172,7 @@ def _frame(line: Line, native: Line, bits: int, counts: dict[str, int], splits: 
         subpixel_bits=bits,
         crc=line.crc,
         passes=int(line.values["passes"]),
-        ram={**ram, "beside": int(line.values["peak"]) - sum(ram.values())},
+        ram=ram,
         native_us=int(native.values["ns"]) / 1000,
         instructions=counts,
         stages=splits,

@@ -20,19 +20,20 @@ SCENES = ("model-spot", "model-suzanne", "model-beetle", "model-teapot")
 
 
 def convert(folder: Path) -> Path | None:
-    """Writes the models' headers into `folder`, as far as they are not there, and returns it; None where there are no
-    models. With CI=true that is an error."""
+    """Writes the models' headers into `folder`, as far as they are not there or older than the converter, and returns
+    it; None where there are no models. With CI=true that is an error."""
     source = Path(os.environ.get("EDGELINE_MODELS") or ROOT.parent / "shared" / "models")
     if not source.is_dir():
         if os.environ.get("CI") == "true":
             raise MissingToolError("no models: shared/models is not beside the repository")
         return None
     folder.mkdir(parents=True, exist_ok=True)
+    converter = sorted((ROOT / "host" / "edgeline" / "convert").glob("*.py"))
     for name, (model, extra) in MODELS.items():
         header = folder / f"{name}.h"
         words = [source / word if (source / word).is_file() else word for word in (model, *extra)]
-        newest = max(word.stat().st_mtime for word in words if isinstance(word, Path))
-        if not header.is_file() or header.stat().st_mtime < newest:
+        needed = [*converter, *(word for word in words if isinstance(word, Path))]
+        if not header.is_file() or header.stat().st_mtime < max(file.stat().st_mtime for file in needed):
             command = [sys.executable, "-m", "edgeline", "convert", *words, "--name", name, "-o", header]
             output_of(command, {"PYTHONPATH": str(ROOT / "host")})
     return folder

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from .frames import PEERS, TARGETS, Frame
+from .frames import FIXED_PARTS, PEERS, TARGETS, Frame
 from .machines import CORES, MAIN_CORES, ROOT, BenchError
 from .size import RENDERER
 from .stages import STAGES
@@ -84,23 +84,19 @@ def by_stage(frames: Sequence[Frame]) -> str:
 
 def memory(frames: Sequence[Frame]) -> str:
     """Bytes of the arena by part."""
-    parts = {
-        "colour": "two colour bands",
-        "depth": "depth band",
-        "bins": "bins",
-        "list": "list",
-        "beside": "vertices, then states",
-    }
+    parts = ("two colour bands", "depth band", "bins", "list", "vertices beside it", "then states beside it")
     rows = [
         [
             *(frame.scene, f"{frame.arena_bytes // 1024} KB"),
-            *(f"{frame.ram[part]:,}" for part in parts),
+            *(f"{frame.ram[part]:,}" for part in FIXED_PARTS),
+            f"{frame.ram['vertices']:,}",
+            f"{frame.ram['states']:,}" if frame.ram["states"] else "no more",
             f"{frame.memory_peak:,}",
         ]
         for frame in usual(frames)
         if frame.number == 0
     ]
-    return _markdown(["scene", "arena", *parts.values(), "in all"], rows)
+    return _markdown(["scene", "arena", *parts, "in all"], rows)
 
 
 def exactness(frames: Sequence[Frame]) -> str:
@@ -148,8 +144,8 @@ def document(frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]], co
         "calls it. `bin` is culling and the display list, `rows` edges and spans, `sink` clearing and handing over.",
         by_stage(frames),
         "## Memory",
-        "Bytes of the arena in its largest use. Vertices lie in the depth band and, where that is too small, beside "
-        "the list while triangles are collected; states of triangles lie there while they are drawn.",
+        "Bytes of the arena in its largest use. Beside the list lie vertices while triangles are collected, as far as "
+        "the depth band has no room for them, and states of triangles while they are drawn: the larger one counts.",
         memory(frames),
         "## Other texture errors and sub-pixel bits",
         exactness(frames),
