@@ -57,11 +57,15 @@ COMPANIONS: dict[str, list[str]] = {
     "base/fixed.c": [],
     "geometry/transform.c": ["geometry/cull.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
     "geometry/clip.c": ["base/fixed.c", *DIVISION],
+    "geometry/cull.c": ["base/fixed.c"],
     "raster/plane.c": DIVISION,
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
     "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/fixed.c", *DIVISION],
-    "raster/gather.c": ["geometry/transform.c", "geometry/cull.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "raster/gather.c": [
+        *("geometry/transform.c", "geometry/cull.c", "geometry/pose.c"),
+        *("base/fixed.c", "base/angle.c", *DIVISION),
+    ],
 }
 
 
