@@ -1,6 +1,6 @@
 """geometry/cull: the steps of the coarse frustum test keep within 32 bits, for any camera, pose and mesh that
 el_view_make and el_transform_make let through. That what it calls outside is outside, and that nothing overflows
-between the steps, is for tests/unit/test_cull.c, also with sanitizers.
+between the steps, is for tests/unit/test_far_outside.c, also with sanitizers.
 """
 
 from __future__ import annotations
