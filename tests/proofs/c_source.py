@@ -51,12 +51,13 @@ HEADERS = {
 # Division, with its tables, of which a core with a divider has none.
 DIVISION = ["base/divide.c", "base/reciprocals.c"]
 
-# What a unit calls in others, so that its functions can be linked.
+# What a unit calls in others, so that its functions can be linked; what those call in turn need not be named.
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
-    "geometry/transform.c": ["geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/transform.c": ["geometry/cull.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
     "geometry/clip.c": ["base/fixed.c", *DIVISION],
+    "geometry/cull.c": ["base/fixed.c"],
     "raster/plane.c": DIVISION,
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
@@ -149,11 +150,19 @@ class _Collector(c_ast.NodeVisitor):
             previous = value
 
 
+def companions_of(file: str) -> list[str]:
+    """What it is linked with: the units that it calls, and those that they call."""
+    found = list(COMPANIONS[file])
+    for companion in found:
+        found += [further for further in COMPANIONS.get(companion, []) if further not in found]
+    return found
+
+
 @functools.cache
 def parse(file: str, subpixel_bits: int = 4, fault: Fault | None = None, core: str = "") -> Unit:
     """The unit of `file`, a path relative to firmware/src, linked with those that it calls."""
     unit = _parse(file, subpixel_bits, fault, core)
-    for companion in COMPANIONS[file]:
+    for companion in companions_of(file):
         concerned = fault is not None and (fault.file == companion or fault.file.endswith(".h"))
         other = _parse(companion, subpixel_bits, fault if concerned else None, core)
         for name, function in other.functions.items():

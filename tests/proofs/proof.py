@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 
 from c_execution import Contract, Lemma, Machine
-from c_source import ARMV6M, COMPANIONS, SMALL_CODE, SOURCES, Fault, core_options, parse
+from c_source import ARMV6M, SMALL_CODE, SOURCES, Fault, companions_of, core_options, parse
 from c_values import ArrayType, Cell, IntType, Number, Pointer, PointerType, StructType
 from symbolic import Fact, Infeasible, Path, Poly, ProofError, every_path, require
 
@@ -214,7 +214,7 @@ def _agree(subject: Subject, bits: int, count: int) -> None:
     text = f'#include "{subject.file}"\n#include <stdbool.h>\n' + _wrapper(machine, subject.function, shapes)
     with tempfile.TemporaryDirectory() as folder:
         library = FilePath(folder) / "subject.so"
-        companions = [str(SOURCES / name) for name in COMPANIONS[subject.file]]
+        companions = [str(SOURCES / name) for name in companions_of(subject.file)]
         compile_c(
             text, library, "-shared", "-fPIC", f"-DEL_SUBPIXEL_BITS={bits}", *core_options(subject.core), *companions
         )

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "geometry/cull.h"
 
 _Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
 
@@ -177,17 +178,6 @@ static int64_t scale_by(int64_t value, el_factor factor, int shift)
                       : el_shift_i64(el_scale_i64(value, factor.mantissa, 0), total);
 }
 
-/* How far the mesh reaches from its origin along any axis, in position units. */
-static uint32_t reach_of(const el_mesh *mesh)
-{
-    int32_t reach = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        const int32_t distance = mesh->centre[i];
-        reach = el_max_i32(reach, distance < 0 ? -distance : distance);
-    }
-    return (uint32_t)reach + mesh->radius + 1U;
-}
-
 /* The view-space rows of the mesh: right, up, distance. False when the mesh leaves the world. */
 static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *pose, el_form forms[3], int *exponent)
 {
@@ -196,7 +186,7 @@ static bool view_forms(const el_view *view, const el_mesh *mesh, const el_pose *
     const int64_t scale = pose->scale_q16 >> scale_shift;
     *exponent = scale_shift + mesh->scale_log2 - (30 + 16);
     /* |row| * reach < 2^(FORM_BITS + 15) */
-    const int row_bits = FORM_BITS + 15 - el_bit_length_u32(reach_of(mesh));
+    const int row_bits = FORM_BITS + 15 - el_bit_length_u32(el_cull_reach(mesh));
 
     for (unsigned i = 0; i < 3; i++) {
         const int32_t *const axis = view->axes_q30[i];
@@ -309,7 +299,13 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     el_form forms[3];
     int exponent;
     if (check_place(pose->rotation_q30, pose->position_q16) != EL_OK || pose->scale_q16 == 0 ||
-        mesh->scale_log2 < -30 || mesh->scale_log2 > 8 || !view_forms(view, mesh, pose, forms, &exponent)) {
+        mesh->scale_log2 < -30 || mesh->scale_log2 > 8) {
+        return EL_ERROR_RANGE;
+    }
+    if (!EL_SMALL_CODE && el_cull_is_far_outside(view, mesh, pose)) {
+        return EL_CULLED;
+    }
+    if (!view_forms(view, mesh, pose, forms, &exponent)) {
         return EL_ERROR_RANGE;
     }
     el_factor factors[3] = {view->focal[0], view->focal[1], {.mantissa = 1U << 30, .exponent = 30}};

@@ -155,7 +155,7 @@ LAWS = (
         "flat: one test per mesh, however many triangles it has",
         (FRAME, MESH_OUTSIDE),
         0.03,
-        (9500.0, 4200.0),
+        (1100.0, 800.0),
         "",
     ),
     Law(
