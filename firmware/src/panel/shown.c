@@ -64,14 +64,20 @@ el_shown_part el_shown_update(uint32_t *hashes, const uint16_t *pixels, unsigned
     const bool by_words = !EL_SMALL_CODE && (width & 1U) == 0 && ((uintptr_t)pixels & 3U) == 0;
     el_shown_part part = {0};
     for (unsigned line = 0; line < lines; line++, pixels += width) {
+        unsigned left = width;
+        unsigned right = 0;
         for (unsigned x = 0; x < width; x += EL_SHOWN_SEGMENT, hashes++) {
             const unsigned count = lesser(width - x, EL_SHOWN_SEGMENT);
             const uint32_t hash =
                 by_words && count == EL_SHOWN_SEGMENT ? hash_segment(pixels + x) : hash_pixels(pixels + x, count);
             if (*hashes != hash) {
                 *hashes = hash;
-                add(&part, x, x + count, line, line + 1U);
+                left = lesser(left, x);
+                right = x + count;
             }
+        }
+        if (right > 0) {
+            add(&part, left, right, line, line + 1U);
         }
     }
     return part;
