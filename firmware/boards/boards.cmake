@@ -7,7 +7,8 @@
 #   edgeline_demo(SCRIPT FILE SOURCES FILE... PANEL NAME ROTATION DEGREES BAND LINES MEMORY BYTES [SCENE NAME])
 #       The program edgeline-demo of firmware/apps/demo. PANEL and ROTATION are what the board has by default; EDGELINE_PANEL
 #       and EDGELINE_ROTATION choose others. MEMORY is what renderer and stream share. SCENE is the one at the start, "demo"
-#       unless it is named.
+#       unless it is named. With EDGELINE_SPARING it leaves out what has not changed; otherwise each frame is one window on
+#       the display's wire, by which the boards' tests tell frames apart.
 include_guard(GLOBAL)
 
 set(EDGELINE_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
@@ -16,6 +17,7 @@ set(EDGELINE_CORTEX_M_SOURCES ${EDGELINE_BOARDS_DIR}/cortex_m/start.c ${EDGELINE
 string(REGEX REPLACE "gcc$" "size" edgeline_size ${CMAKE_C_COMPILER})
 
 set(EDGELINE_PANEL "" CACHE STRING "Panel of the demo; empty: the board's own")
+option(EDGELINE_SPARING "The demo neither draws nor sends what has not changed; 10 KB of RAM for a colour panel")
 set(EDGELINE_ROTATION "" CACHE STRING "How the panel is turned, degrees; empty: the board's own")
 set(edgeline_tft_panels ili9341 st7789 st7789-240x240 st7735)
 set(edgeline_oled_panels ssd1306 ssd0323)
@@ -71,5 +73,6 @@ function(edgeline_demo)
         EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
         EL_DEMO_MODEL=el_${model} EL_DEMO_INIT=el_${model}_init EL_DEMO_SINK=el_${model}_sink
         EL_DEMO_PANEL_MEMORY=EL_${macros}_MEMORY_BYTES
+        EL_DEMO_SPARING=$<BOOL:${EDGELINE_SPARING}>
         EL_DEMO_BAND_LINES=${arg_BAND} EL_DEMO_MEMORY_BYTES=${arg_MEMORY})
 endfunction()

@@ -83,7 +83,7 @@ def test_small_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tup
     assert _draw(tmp_path, *flags) == everything
 
 
-@pytest.mark.parametrize("option", ["STATS", "CARRY", "THIN"])
+@pytest.mark.parametrize("option", ["STATS", "CARRY", "THIN", "REUSE"])
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
     drawn = _draw(tmp_path, f"-DEL_WITH_{option}=0")
     pixels = {name: 0 if option == "STATS" else count for name, (_, _, count) in everything.items()}

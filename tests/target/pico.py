@@ -80,7 +80,9 @@ class Report:
 class Pico:
     """One emulated board from its power-on. A context manager; `folder` takes the wire trace."""
 
-    def __init__(self, image: Image, folder: Path, uart_speed: int = UART_SPEED) -> None:
+    def __init__(self, image: Image, folder: Path, uart_speed: int = UART_SPEED, frame_at: str = "") -> None:
+        """`frame_at`: the function that begins a frame, by which frames are told apart where they have no end on the
+        wire."""
         self.trace = folder / "wire.trace"
         self.now_ns = 0
         self.frame_ends = 0
@@ -89,6 +91,8 @@ class Pico:
         command = ["node", str(HARNESS / "run.mjs"), str(image.uf2), "--modules", str(emulator())]
         command += ["--trace", str(self.trace), "--uart-speed", str(uart_speed), "--stdio"]
         begin, end = stack_of(image)
+        if frame_at:
+            command += ["--frame-at", str(symbols_of(image)[frame_at] & ~1)]
         command += ["--stack", f"{begin}-{end}"]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
@@ -187,9 +191,14 @@ class Host:
             self.step()
 
 
-def stack_of(image: Image) -> tuple[int, int]:
-    """First address of the stack and the one after its last, by the linker's symbols."""
+def symbols_of(image: Image) -> dict[str, int]:
+    """The program's symbols and their addresses."""
     nm = need_tool("arm-none-eabi-nm", "gcc-arm-none-eabi")
     lines = subprocess.run([nm, str(image.elf)], capture_output=True, text=True, check=True).stdout.splitlines()
-    symbols = {words[2]: int(words[0], 16) for words in map(str.split, lines) if len(words) == 3}
+    return {words[2]: int(words[0], 16) for words in map(str.split, lines) if len(words) == 3}
+
+
+def stack_of(image: Image) -> tuple[int, int]:
+    """First address of the stack and the one after its last, by the linker's symbols."""
+    symbols = symbols_of(image)
     return symbols["el_stack_begin" if "el_stack_begin" in symbols else "el_bss_end"], symbols["el_stack_end"]

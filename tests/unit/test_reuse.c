@@ -8,22 +8,21 @@
 
 enum { WIDTH = 40, HEIGHT = 70, PLENTY = 60000, COURSES = PART_OF(40), FRAMES = 40 };
 
+#if EL_WITH_REUSE
+
 static any_scene scene;
 static recording anew, record, second;
 static uint8_t memory[2][PLENTY] __attribute__((aligned(8)));
 static el_renderer plain, sparing;
 static seeded answers;
 
-void setUp(void)
+/* Nothing is known before the first frame. */
+static void forget_all(void)
 {
     memset(&anew, 0, sizeof anew);
     memset(&record, 0, sizeof record);
     memset(&second, 0, sizeof second);
     answers = seeded_from(1);
-}
-
-void tearDown(void)
-{
 }
 
 static void start(el_renderer *renderer, void *arena, size_t bytes, uint16_t band_lines, uint8_t reuse,
@@ -116,7 +115,7 @@ static void test_courses_of_frames_show_the_same(void)
     for (seeded s = seeded_from(70); s.round < COURSES; s.round++) {
         const uint16_t lines = band_heights[s.round % 7];
         const size_t least = EL_MIN_MEMORY_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)lines);
-        setUp();
+        forget_all();
         record.answers = &answers;
         second.answers = s.round % 3 == 0 ? NULL : &answers;
         start_both(lines, s.round % 2 == 0 ? PLENTY : least, (uint8_t)any_below(&s, 4));
@@ -144,7 +143,7 @@ static void test_a_change_that_is_not_told_is_not_seen(void)
     seeded s = seeded_from(71);
     unsigned stale = 0;
     while (s.round < 20) {
-        setUp();
+        forget_all();
         record.answers = &answers;
         start_both(8, PLENTY, EL_REUSE_FRAME);
         fill_scene(&s, &scene);
@@ -174,6 +173,7 @@ static bool always(void *context, uint16_t y, uint16_t lines)
 static void start_willing(uint8_t reuse)
 {
     static el_sink sink;
+    forget_all();
     sink = recording_sink(&record);
     sink.unchanged = always;
     record.answers = &answers; /* never asked; the count of bands is not the renderer's */
@@ -263,13 +263,38 @@ static void test_a_frame_with_an_error_is_drawn_again(void)
     }
 }
 
+#endif
+
+/* Bits that do not exist, or that base/options.h leaves out. */
+static void test_what_cannot_be_reused_is_refused(void)
+{
+    static uint8_t arena[EL_MIN_MEMORY_BYTES(8U, 8U, 8U)];
+    el_renderer renderer;
+    el_config config = {.width = 8, .height = 8, .band_lines = 8, .memory = arena, .memory_bytes = sizeof arena};
+    for (unsigned reuse = 0; reuse < 256; reuse++) {
+        config.reuse = (uint8_t)reuse;
+        TEST_ASSERT_EQUAL_INT((reuse & ~(unsigned)EL_REUSES) == 0 ? EL_OK : EL_ERROR_SIZE, el_init(&renderer, &config));
+    }
+}
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_what_cannot_be_reused_is_refused);
+#if EL_WITH_REUSE
     RUN_TEST(test_courses_of_frames_show_the_same);
     RUN_TEST(test_a_change_that_is_not_told_is_not_seen);
     RUN_TEST(test_an_unchanged_frame_costs_a_look);
     RUN_TEST(test_background_is_left_out_where_it_was_background);
     RUN_TEST(test_a_frame_with_an_error_is_drawn_again);
+#endif
     return UNITY_END();
 }

@@ -169,6 +169,29 @@ static void test_frames_that_are_not_sent_change_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(1, get_u16(host.frame_end + 20));
 }
 
+/* Lines that have not changed are left to the stream while it sends nothing; a frame that it sends it sees whole, and what
+ * was changed meanwhile arrives. */
+static void test_what_is_unchanged_is_left_out_of_frames_that_are_not_sent(void)
+{
+    const el_stats stats = {0};
+    open_device(16, 100, 8, "00 00 00 00 03 00");
+    draw();
+    for (size_t i = 0; i < 16 * 30; i++) {
+        dev.pixels[i] ^= 0x0F0F;
+    }
+    device_draw(&dev); /* no credits: it sees the change and does not send it */
+    for (unsigned frame = 0; frame < 3; frame++) {
+        dev.sink.begin(dev.sink.context, 16, 100);
+        TEST_ASSERT_TRUE(dev.sink.unchanged(dev.sink.context, 0, 100));
+        dev.sink.end(dev.sink.context, &stats);
+    }
+    host_packet(&wire, EL_PACKET_ACK, "00 00 01");
+    dev.sink.begin(dev.sink.context, 16, 100);
+    TEST_ASSERT_FALSE(dev.sink.unchanged(dev.sink.context, 0, 100));
+    TEST_ASSERT_FALSE(dev.sink.unchanged(dev.sink.context, 8, 8));
+    dev.sink.end(dev.sink.context, &stats);
+}
+
 /* Equal lines share packets up to the largest: 100 flat lines of one band are one packet, noise fills each. */
 static void test_lines_share_packets(void)
 {
@@ -219,6 +242,7 @@ int main(void)
     RUN_TEST(test_the_first_frame_has_all_lines_and_later_ones_what_changed);
     RUN_TEST(test_every_line_is_refreshed);
     RUN_TEST(test_frames_that_are_not_sent_change_nothing);
+    RUN_TEST(test_what_is_unchanged_is_left_out_of_frames_that_are_not_sent);
     RUN_TEST(test_lines_share_packets);
     RUN_TEST(test_one_way);
     return UNITY_END();

@@ -72,11 +72,12 @@ int main(void)
     (void)el_stream_log(&stream, greeting, sizeof greeting - 1);
     const el_sink stream_sink = el_stream_sink(&stream);
 
-    /* The panel comes last, because it may change the order of a band's bytes. */
+    /* The panel comes last, because it may change the order of a band's bytes and pixels. */
     static el_renderer renderer;
     const el_config config = {.width = panel.width,
                               .height = panel.height,
                               .band_lines = EL_DEMO_BAND_LINES,
+                              .reuse = EL_DEMO_SPARING ? EL_REUSES : 0,
                               .memory = memory + stream_bytes,
                               .memory_bytes = sizeof memory - stream_bytes,
                               .sinks = {&stream_sink, &panel.sink}};

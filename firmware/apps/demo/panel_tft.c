@@ -8,7 +8,12 @@
 el_status el_demo_panel_start(const el_bus *bus, el_demo_panel *panel)
 {
     static el_tft tft;
-    const el_tft_config config = {.bus = bus, .model = &EL_DEMO_MODEL, .rotation = EL_DEMO_ROTATION};
+    el_tft_config config = {.bus = bus, .model = &EL_DEMO_MODEL, .rotation = EL_DEMO_ROTATION};
+#if EL_DEMO_SPARING
+    static uint32_t shown[EL_TFT_SHOWN_BYTES(240, 320) / sizeof(uint32_t)]; /* the largest, upright; lying it is less */
+    config.shown = shown;
+    config.shown_bytes = sizeof shown;
+#endif
     const el_status status = el_tft_init(&tft, &config);
     if (status == EL_OK) {
         *panel = (el_demo_panel){.sink = el_tft_sink(&tft), .width = el_tft_width(&tft), .height = el_tft_height(&tft)};

@@ -589,7 +589,8 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return status;
     }
     el_count(&renderer->stats.draws, 1);
-    if (el_quiet_looks_at(renderer, mesh, pose, material)) {
+    if (el_quiet_looks(renderer)) {
+        el_quiet_look_at(renderer, mesh, pose, material);
         return EL_OK;
     }
     drawing d = {.renderer = renderer, .mesh = mesh};

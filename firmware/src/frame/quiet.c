@@ -3,6 +3,8 @@
 #include "base/fixed.h"
 #include "base/hash.h"
 
+#if EL_WITH_REUSE
+
 /* A view counts what is drawn, bands without triangles included. */
 static unsigned reuse_of(const el_renderer *renderer)
 {
@@ -80,18 +82,14 @@ static uint32_t hash_material(uint32_t hash, const el_material *material)
     return hash;
 }
 
-bool el_quiet_looks_at(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material)
+void el_quiet_look_at(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material)
 {
-    if (!renderer->quiet.looks) {
-        return false;
-    }
     uint32_t hash = renderer->quiet.submitted;
     hash = hash_words(hash, pose->rotation_q30[0], 9);
     hash = hash_words(hash, pose->position_q16, 3);
     hash = el_hash_word(hash, pose->scale_q16);
     hash = hash_mesh(hash, mesh);
     renderer->quiet.submitted = hash_material(hash, material);
-    return true;
 }
 
 /* --- Sinks -------------------------------------------------------------------------------------------------------- */
@@ -181,7 +179,4 @@ void el_quiet_end(el_renderer *renderer)
     quiet->was_submitted = quiet->submitted;
 }
 
-void el_frame_forget(el_renderer *renderer)
-{
-    renderer->quiet.known = 0;
-}
+#endif

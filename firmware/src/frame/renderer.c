@@ -21,8 +21,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
-        (config->depth_prepass && !EL_WITH_PREPASS) || config->view >= EL_DEBUG_VIEWS ||
-        (config->shading_off & ~EL_DEBUG_SHADINGS) != 0) {
+        config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
+        (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS)) {
         return EL_ERROR_SIZE;
     }
     const uint32_t width = config->width;
@@ -128,7 +128,7 @@ int el_frame_next(el_renderer *renderer)
     if (renderer == NULL || !renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    if (renderer->quiet.looks) {
+    if (el_quiet_looks(renderer)) {
         if (el_quiet_is_unchanged(renderer)) {
             return end_frame(renderer);
         }
@@ -148,6 +148,11 @@ int el_frame_next(el_renderer *renderer)
         renderer->pass_bands = renderer->band_count;
     }
     return end_frame(renderer);
+}
+
+void el_frame_forget(el_renderer *renderer)
+{
+    el_quiet_forget(renderer);
 }
 
 const el_stats *el_frame_stats(const el_renderer *renderer)

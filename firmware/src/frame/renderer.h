@@ -94,7 +94,8 @@ enum {
      * a pass of its own, in which el_draw looks only at what it is given: the values of structures (el_mesh, el_material,
      * el_texture, el_light ...), but not the arrays that they name. A program that changes vertices or texels in place
      * says so by el_frame_forget. Two frames are taken for the same by mistake with a probability of 2^-32. */
-    EL_REUSE_FRAME = 2
+    EL_REUSE_FRAME = 2,
+    EL_REUSES = EL_WITH_REUSE ? 3 : 0 /* what el_config.reuse may have */
 };
 
 /* What its pointers name must outlive the renderer. */
@@ -155,12 +156,14 @@ typedef struct el_renderer {
     el_stats stats;
     el_painter painter; /* of the caller's core */
     el_worker *others;  /* of the others, in the arena */
+#if EL_WITH_REUSE
     el_quiet quiet;
+#endif
     el_view view;
 } el_renderer;
 
-/* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. EL_ERROR_SIZE also for a view or a shading_off that does not exist
- * or that base/options.h leaves out. */
+/* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. EL_ERROR_SIZE also for a view, a shading_off or a reuse that does not
+ * exist or that base/options.h leaves out. */
 el_status el_init(el_renderer *renderer, const el_config *config);
 
 /* Starts a frame. EL_ERROR_CAMERA or EL_ERROR_RANGE for a camera that cannot be used; no frame has begun then. */

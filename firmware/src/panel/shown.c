@@ -5,6 +5,7 @@
 
 #include "base/fill.h"
 #include "base/hash.h"
+#include "base/options.h"
 
 /* A whole segment at a multiple of 4 bytes: nearly all that is hashed. */
 static uint32_t hash_segment(const uint16_t *pixels)
@@ -60,17 +61,23 @@ static void add(el_shown_part *part, unsigned left, unsigned right, unsigned top
 
 el_shown_part el_shown_update(uint32_t *hashes, const uint16_t *pixels, unsigned width, unsigned lines)
 {
-    const bool by_words = (width & 1U) == 0 && ((uintptr_t)pixels & 3U) == 0;
+    const bool by_words = !EL_SMALL_CODE && (width & 1U) == 0 && ((uintptr_t)pixels & 3U) == 0;
     el_shown_part part = {0};
     for (unsigned line = 0; line < lines; line++, pixels += width) {
+        unsigned left = width;
+        unsigned right = 0;
         for (unsigned x = 0; x < width; x += EL_SHOWN_SEGMENT, hashes++) {
             const unsigned count = lesser(width - x, EL_SHOWN_SEGMENT);
             const uint32_t hash =
                 by_words && count == EL_SHOWN_SEGMENT ? hash_segment(pixels + x) : hash_pixels(pixels + x, count);
             if (*hashes != hash) {
                 *hashes = hash;
-                add(&part, x, x + count, line, line + 1U);
+                left = lesser(left, x);
+                right = x + count;
             }
+        }
+        if (right > 0) {
+            add(&part, left, right, line, line + 1U);
         }
     }
     return part;

@@ -1,4 +1,4 @@
-"""Frames that follow each other: what it saves to leave out what has not changed, on each core and on the display's bus."""
+"""Frames after one another: what it saves, on each core and on the display's bus, to leave out what has not changed."""
 
 from __future__ import annotations
 

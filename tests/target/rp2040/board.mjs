@@ -18,8 +18,10 @@ const UART_PINS = [0, 1], FUNCTION_UART = 2;
 const FRAMES_KEPT = 64;
 
 // `modules`: the folder that holds node_modules with rp2040js. `image`: from loadUf2. `stack`: {begin, end} or null.
+// `frameAt`: the address of the function that begins a frame, or 0: a frame ends where the next command follows its
+// pixels on the wire, which is wrong where frames are sent in pieces, or not at all.
 export class Board {
-  constructor({ modules, image, tracePath, uartSpeed, stack }) {
+  constructor({ modules, image, tracePath, uartSpeed, stack, frameAt }) {
     const { RP2040 } = createRequire(join(modules, 'package.json'))('rp2040js');
     this.mcu = new RP2040();
     this.clock = this.mcu.clock;
@@ -30,6 +32,7 @@ export class Board {
     this.stack = stack;
     this.asleepNs = 0;
     this.frames = [];
+    this.frameCount = 0;
     this.frameMark = this.#mark();
     this.bandAsleepNs = [];
     this.bandMarkNs = 0;
@@ -41,7 +44,10 @@ export class Board {
     this.silicon = new Silicon(mcu, clock, this.problems);
     this.display = new DisplayBus(mcu, clock, this.problems, this.trace, () => this.silicon.checkClocks());
     this.display.onBand = () => this.#bandBegins();
-    this.display.onFrameEnd = () => this.#frameEnds();
+    this.frameAt = frameAt;
+    if (!frameAt) {
+      this.display.onFrameEnd = () => this.#frameEnds();
+    }
     this.silicon.watchProcessor(image, this.display);
     this.#untilStopped(() => this.#boot(image));
   }
@@ -79,6 +85,9 @@ export class Board {
         clock.tick(ns);
       } else {
         // Not the instruction's own count alone: the divider adds its cycles to the core's.
+        if (core.PC === this.frameAt) {
+          this.#frameEnds();
+        }
         const before = core.cycles;
         core.executeInstruction();
         clock.tick(((core.cycles - before) * 1e9) / mcu.clkSys);
@@ -101,6 +110,7 @@ export class Board {
       words: display.words,
       stack_bytes: this.#stackBytes(),
       frames: this.frames,
+      frame_count: this.frameCount,
       frame_ends: display.frameEnds,
       problems: problems.counts,
       texts: problems.texts,
@@ -137,7 +147,7 @@ export class Board {
   }
 
   #mark() {
-    return { ns: this.clock.nanos, asleep: this.asleepNs, wire: this.display?.wireNs ?? 0 };
+    return { ns: this.clock.nanos, asleep: this.asleepNs, wire: this.display?.wireNs ?? 0, words: this.display?.words ?? 0 };
   }
 
   // The processor has slept since the last band began: it had drawn the next one before this one's turn came.
@@ -155,8 +165,10 @@ export class Board {
       asleep_cycles: cycles(end.asleep - begin.asleep),
       wire_cycles: cycles(end.wire - begin.wire),
       asleep_cycles_of_bands: this.bandAsleepNs.map(cycles),
+      words: this.display.words - begin.words,
     });
     this.bandAsleepNs = [];
+    this.frameCount++;
     if (this.frames.length > FRAMES_KEPT) {
       this.frames.shift();
     }

@@ -1,6 +1,9 @@
 // Runs a Pico's image:
 //
-//     node run.mjs IMAGE.uf2 --modules DIR --trace FILE [--uart-speed N] [--stack BEGIN-END] (--stdio | --tcp PORT)
+//     node run.mjs IMAGE.uf2 --modules DIR --trace FILE [--uart-speed N] [--stack BEGIN-END] [--frame-at ADDRESS]
+//         (--stdio | --tcp PORT)
+//
+// --frame-at: frames are told apart by the program's arrival there, not on the wire.
 //
 // --stdio: a line of JSON on standard input is a step, a line on standard output its outcome. Nothing happens in
 // between, so that a run is the same each time, however slow the machine. A step is {"ns": time to pass, "rx": bytes
@@ -27,7 +30,7 @@ function options(words) {
     const word = words.shift();
     if (word === '--stdio') {
       given.stdio = true;
-    } else if (/^--(modules|trace|uart-speed|stack|tcp)$/.test(word) && words.length > 0) {
+    } else if (/^--(modules|trace|uart-speed|stack|frame-at|tcp)$/.test(word) && words.length > 0) {
       given[word.slice(2)] = words.shift();
     } else if (!word.startsWith('--') && given.image === undefined) {
       given.image = word;
@@ -54,6 +57,7 @@ function createBoard(given) {
     tracePath: given.trace,
     uartSpeed: Number(given['uart-speed']),
     stack: end > begin ? { begin, end } : null,
+    frameAt: Number(given['frame-at'] ?? 0),
   });
 }
 
