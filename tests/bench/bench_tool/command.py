@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import codec, compare, frames, size
+from . import codec, compare, frames, size, workers
 from .machines import (
     BENCH,
     CORES,
@@ -44,6 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
     what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed, check them")
     what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
+    what.add_argument("--workers", action="store_true", help="print what two cores gain over one, here as threads")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -86,6 +87,8 @@ def _run(options: argparse.Namespace, machines: Machines, verdicts: frames.Verdi
         print(frames.table(found))
         if options.all:
             _write_json(RESULTS / "scenes.json", {"frames": frames.rows(found)})
+    if options.workers:
+        print(workers.table(workers.measure(machines)))
     if options.profile is not None:
         for core in CORES:
             _print_profile(core, machines.profile(core, options.profile))
