@@ -105,7 +105,7 @@ static bool open_renderer(el_machine *machine)
         el_report("an arena of %zu bytes is too small: %u x %u in bands of %u lines needs %u at least",
                   machine->arena_bytes, config->width, config->height, config->band_lines,
                   EL_MIN_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines) +
-                      EL_WORKERS_BYTES((unsigned)config->width, band_lines, config->threads));
+                      EL_WORKERS_BYTES((unsigned)config->width, (unsigned)config->height, band_lines, config->threads));
     } else if (status != EL_OK) {
         el_report("%s", el_machine_message(status));
     }
@@ -123,11 +123,12 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
     machine->picture_height = config->panel != NULL ? machine->display.height : config->height;
 
     const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
-    machine->arena_bytes = config->arena_bytes != 0
-                               ? config->arena_bytes
-                               : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
-                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
-                                     EL_WORKERS_BYTES((unsigned)config->width, band_lines, config->threads);
+    machine->arena_bytes =
+        config->arena_bytes != 0
+            ? config->arena_bytes
+            : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines, EL_MACHINE_VERTICES,
+                              EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
+                  EL_WORKERS_BYTES((unsigned)config->width, (unsigned)config->height, band_lines, config->threads);
     if (config->threads > 1) {
         machine->threads = el_threads_open(config->threads);
         if (machine->threads == NULL) {

@@ -26,7 +26,7 @@ void tearDown(void)
 static size_t least(uint16_t lines, unsigned workers)
 {
     return EL_MIN_MEMORY_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)lines) +
-           EL_WORKERS_BYTES((unsigned)WIDTH, (unsigned)lines, workers);
+           EL_WORKERS_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)lines, workers);
 }
 
 static uint32_t crc_of_frame(const recording *r)

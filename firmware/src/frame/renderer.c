@@ -32,7 +32,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_SIZE;
     }
     const uint32_t workers = config->workers != NULL ? config->workers->count : 1U;
-    const uint32_t least = EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, lines, workers);
+    const uint32_t least =
+        EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, config->height, lines, workers);
     if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {
         return EL_ERROR_MEMORY;
     }
@@ -44,7 +45,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
 
     renderer->workers = (uint8_t)workers;
 
-    /* Two colour bands of each core, bins, the other cores' painters, list ..., depth bands: the vertices of a draw lie at
+    /* Two colour bands of each core, bins, the other cores' painters and bins, list ..., depth bands: the vertices of a draw lie at
      * the end of the list's memory and reach over the depth bands while no band is open. Names of records do not reach
      * beyond EL_LIST_MAX_BYTES; what is more stays unused. */
     const uint32_t skipped = (uint32_t)(-(uintptr_t)config->memory & 7U);
@@ -54,7 +55,9 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     const uint32_t one_depth = EL_DEPTH_BAND_BYTES(width, lines);
     const uint32_t bins_at = 2 * workers * colour_bytes;
     const uint32_t others_at = bins_at + EL_BIN_BYTES(config->height, lines);
-    const uint32_t list_at = others_at + (workers - 1U) * EL_PAINTER_BYTES;
+    const uint32_t bin_bytes = EL_BIN_BYTES(config->height, lines);
+    const uint32_t part_bins_at = others_at + (workers - 1U) * EL_PAINTER_BYTES;
+    const uint32_t list_at = part_bins_at + (workers - 1U) * bin_bytes;
     renderer->depth_bytes = workers > 1 ? 2 * workers * one_depth : one_depth;
     const uint32_t left = bytes - list_at - renderer->depth_bytes;
     renderer->list_bytes = left < EL_LIST_MAX_BYTES ? left : EL_LIST_MAX_BYTES;
@@ -62,6 +65,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     uint8_t *const depth = memory + list_at + renderer->list_bytes;
     if (EL_WITH_WORKERS && workers > 1) {
         renderer->others = (el_worker *)(void *)(memory + others_at);
+        renderer->part_bins = (uint16_t *)(void *)(memory + part_bins_at);
+        renderer->bin_stride = bin_bytes / (uint32_t)sizeof renderer->part_bins[0];
         memset(renderer->others, 0, (workers - 1U) * sizeof renderer->others[0]);
     }
     for (unsigned i = 0; i < 2 * workers; i++) {

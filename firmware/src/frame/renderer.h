@@ -77,12 +77,13 @@ enum {
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
      EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES + 8U)
 
-/* What comes to either of the two with `workers` cores: for each core but the first two colour bands, and for each two depth
+/* What comes to either of the two with `workers` cores: for each core but the first two colour bands and bins, and for each two depth
  * bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices have all depth bands
  * then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it reaches. */
-#define EL_WORKERS_BYTES(width, band_lines, workers)                                                                   \
+#define EL_WORKERS_BYTES(width, height, band_lines, workers)                                                           \
     ((workers) < 2U ? 0U                                                                                               \
-                    : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES) +             \
+                    : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES +              \
+                                        EL_BIN_BYTES(height, band_lines)) +                                            \
                           (2U * (workers)-1U) * EL_DEPTH_BAND_BYTES(width, band_lines))
 
 /* What of the frame before need not be made again; bits of el_config.reuse. The renderer's sinks must get frames from no
@@ -154,8 +155,10 @@ typedef struct el_renderer {
     el_config config;
     el_list list;
     el_stats stats;
-    el_painter painter; /* of the caller's core */
-    el_worker *others;  /* of the others, in the arena */
+    el_painter painter;  /* of the caller's core */
+    el_worker *others;   /* of the others, in the arena */
+    uint16_t *part_bins; /* their bins for parts of a draw call, ... */
+    uint32_t bin_stride; /* ... so far apart */
 #if EL_WITH_REUSE
     el_quiet quiet;
 #endif

@@ -12,6 +12,7 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
     list->band_lines = band_lines;
     list->bin_count = bin_count;
     list->is_shared = false;
+    list->has_gaps = false;
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
@@ -26,6 +27,7 @@ void el_list_clear(el_list *list)
     list->used = EL_LIST_UNIT; /* the name 0 means none */
     list->run = 0;
     list->is_thin = false;
+    list->has_gaps = false;
     memset(list->bins, 0, list->bin_count * sizeof list->bins[0]);
 }
 
@@ -94,6 +96,37 @@ el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_ki
     return record;
 }
 
+#if EL_WITH_WORKERS
+/* Appends a bin to another one: both are rings, each named by its last record. */
+static void join_bin(const el_list *list, uint16_t *bin, uint16_t more)
+{
+    if (*bin != 0 && more != 0) {
+        el_record *const last = el_list_at(list, *bin);
+        el_record *const more_last = el_list_at(list, more);
+        const uint16_t first = last->next;
+        last->next = more_last->next;
+        more_last->next = first;
+    }
+    *bin = more != 0 ? more : *bin;
+}
+
+void el_list_join(el_list *list, const el_list *more, uint32_t begin)
+{
+    if (more->used == begin) {
+        return;
+    }
+    el_list_end_draw(list);
+    el_run *const gap = (el_run *)(void *)(list->base + list->used);
+    *gap = (el_run){.end = (uint16_t)(begin / EL_LIST_UNIT), .kind = EL_RUN_IS_GAP};
+    for (uint16_t band = 0; band < list->bin_count; band++) {
+        join_bin(list, &list->bins[band], more->bins[band]);
+    }
+    list->used = more->used;
+    list->run = more->run;
+    list->has_gaps = true;
+}
+#endif
+
 static int32_t first_row(const el_record *record, el_record_kind kind)
 {
     if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
@@ -154,6 +187,10 @@ static void compact(el_list *list, int32_t row_begin, int32_t row_end, bool make
     list->is_thin = make_thin;
     for (uint32_t at = EL_LIST_UNIT; at < used;) {
         const el_run old = *(const el_run *)(const void *)(list->base + at);
+        if (EL_WITH_WORKERS && old.kind == EL_RUN_IS_GAP) {
+            at = old.end * (uint32_t)EL_LIST_UNIT;
+            continue;
+        }
         const bool is_open = at / EL_LIST_UNIT == open;
         const el_record_kind kind = (el_record_kind)old.kind;
         const uint32_t old_end = is_open ? used : old.end * (uint32_t)EL_LIST_UNIT;

@@ -44,7 +44,8 @@ typedef enum el_record_kind {
     EL_RECORD_CUT,         /* el_record of a part of a triangle */
     EL_RECORD_PERSPECTIVE, /* el_record_perspective */
     EL_RECORD_CLIPPED,     /* el_record_clipped of a part of a triangle */
-    EL_RECORD_KINDS
+    EL_RECORD_KINDS,
+    EL_RUN_IS_GAP = EL_RECORD_KINDS /* a run without records, from its header to its end */
 } el_record_kind;
 
 /* What the triangles of a draw call have in common. */
@@ -124,6 +125,7 @@ typedef struct el_list {
     uint16_t band_lines;
     bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
     bool is_shared;     /* triangles have shares */
+    bool has_gaps;      /* el_list_keep_rows closes them */
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */
@@ -246,6 +248,10 @@ static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, uint
 /* The same for any kind, with its shares, for a triangle with rows [row, row_end) in the pass: opens a run if the last one
  * is of another kind, and for `draw` if the last draw call has ended. */
 el_record *el_list_append(el_list *list, const el_draw_state *draw, el_record_kind kind, int32_t row, int32_t row_end);
+
+/* Joins what was appended to `more`, a list in this one's memory from byte `begin` on, that has bins of its own and no room
+ * behind it; there is room for a run's header before it. */
+void el_list_join(el_list *list, const el_list *more, uint32_t begin);
 
 /* Drops the triangles that begin at row_end or below and closes the gaps. Triangles that begin above `row_begin` stay in
  * the bin of row_begin. The run that takes records stays open. */

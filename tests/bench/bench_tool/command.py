@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import against, codec, compare, frames, growth, growth_plot, models, size, stages, still, tables
+from . import against, codec, compare, frames, growth, growth_plot, models, size, stages, still, tables, workers
 from .machines import (
     BENCH,
     CORES,
@@ -55,6 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--growth", action="store_true", help="print how cost grows, check the laws that it follows")
     what.add_argument("--record-growth", action="store_true", help="measure that, write tests/bench/results and charts")
     what.add_argument("--against", metavar="REVISION", help="print native time relative to another git revision")
+    what.add_argument("--workers", action="store_true", help="print what two cores gain over one, here as threads")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", metavar="DIR", help="where to build")
     options = parser.parse_args(arguments)
@@ -94,6 +95,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
         print(against.table(*against.measure(machines, options.against, verdicts)))
     if options.still:
         print(still.table(still.measure(machines, verdicts)))
+    if options.workers:
+        print(workers.table(workers.measure(machines)))
     if options.profile is not None:
         for core in MAIN_CORES:
             _print_profile(machines, core, options.profile)

@@ -1,0 +1,83 @@
+/* A draw call under way: what its parts know of each other. Internal to the frame layer. */
+#ifndef EL_FRAME_DRAWING_H
+#define EL_FRAME_DRAWING_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "frame/cull.h"
+#include "frame/renderer.h"
+
+/* The mesh's vertices on the screen, at the end of the list's memory. `direct`: all of them, each transformed once
+ * before the triangles are looked at. Otherwise a direct-mapped cache, for meshes that do not fit: a vertex is
+ * transformed when a triangle asks for it and may be asked for again after another took its place. Where triangles ask
+ * for one vertex after the other, as they do in most meshes, several are transformed at a time. */
+typedef struct el_drawing {
+    el_renderer *renderer;
+    const el_mesh *mesh;
+    const el_draw_state *state;
+    el_list *list; /* the renderer's, or a part of it */
+    bool direct;
+    bool by_clusters;    /* the mesh has some: vertices wait until a cluster or a triangle needs them */
+    bool in_parts;       /* other cores draw too: a vertex of all is not written, and the list is not made smaller */
+    el_record_kind kind; /* of its triangles */
+    el_record_kind cut_kind; /* of those that are cut */
+    uint32_t slot_mask;      /* a vertex' slot is its index & slot_mask */
+    uint32_t next_vertex;    /* the one behind those that were put into the cache last */
+    el_screen_vertex *vertices;
+    uint32_t vertex_bytes; /* of memory there */
+    uint16_t *cached;      /* indices of the vertices in the cache's slots */
+    el_culling culling;
+    uint32_t transformed;           /* vertices so far */
+    uint32_t verdicts[EL_VERDICTS]; /* how many triangles had each */
+    uint32_t clipped;
+} el_drawing;
+
+/* Places the vertices: over the depth bands if no band is open, and over at most a quarter of the list's free memory. */
+void el_vertices_place(el_drawing *d);
+
+/* Transforms `count` vertices from `first` on to `screen`. */
+void el_vertices_transform(el_drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen);
+
+/* Begins an empty cache in d->vertex_bytes at d->vertices; there is room for a vertex at least. */
+void el_vertices_begin_cache(el_drawing *d);
+
+/* Puts a vertex into the cache, and those that follow it when it follows the one before. */
+void el_vertices_cache(el_drawing *d, uint32_t index);
+
+/* A triangle's vertices: at their places, or where two of them share one in the cache, in small code, and in parts, copies. */
+void el_vertices_find(el_drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3]);
+
+#if !EL_SMALL_CODE
+/* Puts a triangle's vertices into the cache. False where they do not go there together. */
+static inline bool el_vertices_are_cached(el_drawing *d, const uint16_t indices[3])
+{
+    const uint16_t *const a = &d->cached[indices[0] & d->slot_mask];
+    const uint16_t *const b = &d->cached[indices[1] & d->slot_mask];
+    const uint16_t *const c = &d->cached[indices[2] & d->slot_mask];
+    if (*a == indices[0] && *b == indices[1] && *c == indices[2]) {
+        return true;
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        if (d->cached[indices[i] & d->slot_mask] != indices[i]) {
+            el_vertices_cache(d, indices[i]);
+        }
+    }
+    return *a == indices[0] && *b == indices[1] && *c == indices[2];
+}
+#endif
+
+/* Draws the triangles [begin, end). Returns `end`; in parts, the first for which the list may have no room. */
+uint32_t el_drawing_run(el_drawing *d, uint32_t begin, uint32_t end);
+
+#if EL_WITH_CLUSTERS
+/* Draws those clusters of the mesh that may be seen. Returns how many triangles the others have. */
+uint32_t el_drawing_run_clusters(el_drawing *d);
+#endif
+
+#if EL_WITH_WORKERS
+/* Draws the first triangles of the mesh by all cores, or none where that is not worth it. Returns how many. */
+uint32_t el_drawing_run_in_parts(el_drawing *d);
+#endif
+
+#endif
