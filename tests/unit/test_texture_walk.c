@@ -32,11 +32,12 @@ static void check_knot(const seeded *s, uint64_t w_q32, int64_t u_q32, uint8_t s
         .v_shift = shift,
     };
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, &triangle, 0);
+    el_texture_walk_start(&walk, &triangle);
+    el_texture_walk_begin(&walk, &triangle.perspective, 0, 1);
     /* 2^shift U / W with 8 more bits of fraction, W as it is taken. */
     const int64_t offset_q24 =
         (int64_t)wide_quotient(wide_left(wide_of(u_q32), shift + 8U), (int64_t)(w_q32 + EL_W_MARGIN_Q32)).low;
-    const int32_t found[2] = {walk.next_u_q16, walk.next_v_q16};
+    const int32_t found[2] = {walk.u.next_q16, walk.v.next_q16};
     for (unsigned i = 0; i < 2; i++) {
         const int64_t exact_q24 = (int64_t)base_q16 * 256 + (i == 0 ? offset_q24 : -offset_q24);
         if (llabs(found[i] * 256LL - exact_q24) >= KNOT_ERROR * 256) {
@@ -164,15 +165,24 @@ static void test_walks_keep_to_the_error(void)
         p->u_shift = any_below(&s, 2) == 0 ? 27 : any_shift(&s);
         p->v_shift = EL_PLANE_FRACTION_BITS;
         el_texture_walk walk;
-        el_texture_walk_begin(&walk, &triangle, 0);
+        el_texture_walk_start(&walk, &triangle);
+        el_texture_walk_begin(&walk, p, 0, (uint32_t)pixels);
         int32_t pixel = 0;
         while (pixel < pixels) {
-            const int32_t length = el_texture_walk_piece(&walk, pixels - pixel);
+            int32_t length = 1;
+            if (pixel < pixels - 1) {
+                length = (int32_t)el_texture_walk_piece(&walk, (uint32_t)pixel, (uint32_t)(pixels - 1 - pixel));
+                if (length < 1 || length > EL_MAX_PIECE || length > pixels - 1 - pixel) {
+                    fail_at(&s, "a piece of %ld pixels at %ld of %ld", (long)length, (long)pixel, (long)pixels);
+                }
+            } else {
+                el_texture_walk_last(&walk);
+            }
             for (int32_t i = 0; i < length; i++) {
                 const int64_t w = at(&p->w, pixel + i) + EL_W_MARGIN_Q32;
                 const int64_t exact_q24 =
                     (int64_t)wide_quotient(wide_left(wide_of(at(&p->u, pixel + i)), p->u_shift + 8U), w).low;
-                const int64_t found_q16 = walk.u_q16 + i * walk.u_step_q16;
+                const int64_t found_q16 = walk.u.q16 + i * walk.u.step_q16;
                 const int64_t error_q24 = llabs(found_q16 * 256 - exact_q24);
                 if (error_q24 > 1LL << (24 - triangle.surface.uv_error_log2)) {
                     fail_at(&s,

@@ -50,7 +50,10 @@ static inline uint64_t el_multiply_u16(uint64_t a, uint32_t b)
     const uint32_t high = (uint32_t)(a >> 32) * b + (middle >> 16);
     return ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * b;
 #else
-    return a * b;
+    /* Not a * b: compilers multiply by b's upper word, too. */
+    const uint64_t low = (uint64_t)(uint32_t)a * b;
+    const uint32_t high = (uint32_t)(low >> 32) + (uint32_t)(a >> 32) * b;
+    return (uint64_t)high << 32 | (uint32_t)low;
 #endif
 }
 
@@ -87,9 +90,16 @@ EL_INLINE uint64_t el_product_u64(uint32_t a, uint32_t b)
 static inline int64_t el_product_i32(int32_t a, int32_t b)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    /* Modulo 2^32 a negative number is 2^32 more. */
-    const uint32_t excess = (a < 0 ? (uint32_t)b : 0U) + (b < 0 ? (uint32_t)a : 0U);
-    return (int64_t)(el_product_u64((uint32_t)a, (uint32_t)b) - ((uint64_t)excess << 32));
+    /* Upper halves have the signs: |upper * lower| <= 2^15 (2^16 - 1), to which less than 2^16 is added. */
+    const int32_t a_high = a >> 16;
+    const int32_t a_low = (int32_t)((uint32_t)a & 0xFFFFU);
+    const int32_t b_high = b >> 16;
+    const int32_t b_low = (int32_t)((uint32_t)b & 0xFFFFU);
+    const uint32_t low = (uint32_t)a_low * (uint32_t)b_low;
+    const int32_t first = a_high * b_low + (int32_t)(low >> 16);
+    const int32_t second = a_low * b_high + (int32_t)((uint32_t)first & 0xFFFFU);
+    const int32_t high = a_high * b_high + (first >> 16) + (second >> 16);
+    return (int64_t)((uint64_t)(uint32_t)high << 32 | ((uint32_t)second << 16 | (low & 0xFFFFU)));
 #else
     return (int64_t)a * b;
 #endif
@@ -117,8 +127,14 @@ static inline uint64_t el_product_u32_u16(uint32_t a, uint32_t b)
 static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    /* a modulo 2^32 is a + 2^32 for a < 0. */
-    return (int32_t)((uint32_t)(el_product_u64((uint32_t)a, b) >> 32) - (a < 0 ? b : 0U));
+    /* a's upper half has the sign: |upper * lower| <= 2^15 (2^16 - 1), to which less than 2^16 is added. */
+    const int32_t a_high = a >> 16;
+    const uint32_t a_low = (uint32_t)a & 0xFFFFU;
+    const int32_t b_high = (int32_t)(b >> 16);
+    const uint32_t b_low = b & 0xFFFFU;
+    const int32_t first = a_high * (int32_t)b_low + (int32_t)((a_low * b_low) >> 16);
+    const uint32_t second = a_low * (uint32_t)b_high + ((uint32_t)first & 0xFFFFU);
+    return a_high * b_high + (first >> 16) + (int32_t)(second >> 16);
 #else
     return (int32_t)(((int64_t)a * b) >> 32);
 #endif

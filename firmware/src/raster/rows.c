@@ -38,13 +38,21 @@ void el_triangle_sample(const el_triangle *triangle, int32_t x, int32_t width, e
         return;
     }
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, begin);
-    int32_t at = begin;
-    int32_t length = el_texture_walk_piece(&walk, end - at);
-    while (x >= at + length) {
-        at += length;
-        length = el_texture_walk_piece(&walk, end - at);
+    el_texture_walk_start(&walk, triangle);
+    el_texture_walk_begin(&walk, &triangle->perspective, (uint32_t)begin, (uint32_t)(end - begin));
+    const uint32_t last = (uint32_t)(end - 1 - begin);
+    const uint32_t wanted = (uint32_t)(x - begin);
+    uint32_t at = 0;
+    uint32_t piece_end = 0;
+    while (piece_end <= wanted && piece_end < last) {
+        at = piece_end;
+        piece_end += el_texture_walk_piece(&walk, at, last - at);
     }
-    sample->u_q16 = walk.u_q16 + (x - at) * walk.u_step_q16;
-    sample->v_q16 = walk.v_q16 + (x - at) * walk.v_step_q16;
+    if (piece_end <= wanted) {
+        at = piece_end;
+        el_texture_walk_last(&walk);
+    }
+    const int32_t further = (int32_t)(wanted - at);
+    sample->u_q16 = walk.u.q16 + further * walk.u.step_q16;
+    sample->v_q16 = walk.v.q16 + further * walk.v.step_q16;
 }

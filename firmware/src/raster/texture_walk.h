@@ -27,22 +27,48 @@ enum { EL_MAX_PIECE = 64 };
  * what the rounding of U at the corners may move it. */
 #define EL_W_MARGIN_Q32 (1U << 14)
 
+/* u or v along a span. */
+typedef struct el_texture_axis {
+    uint64_t value, dx;       /* its plane, Q32: at the span's first pixel, and per pixel */
+    int32_t q16, step_q16;    /* texels: at the piece's first pixel, and per pixel */
+    int32_t next_q16;         /* at the next piece's first pixel, or the span's last */
+    int32_t base_q16;         /* the plane's 0, */
+    uint32_t down;            /* and 30 less what its values are shifted by */
+    uint32_t curvature_shift; /* leading zeros of the last row's J */
+} el_texture_axis;
+
 typedef struct el_texture_walk {
-    const el_perspective *planes;
-    uint64_t w, u, v;     /* planes' values at the next knot, W with its margin, Q32 */
-    int32_t u_q16, v_q16; /* texture coordinates at the piece's first pixel */
-    int32_t u_step_q16, v_step_q16;
-    int32_t next_u_q16, next_v_q16; /* at the next knot */
-    int32_t w_log2_q8;              /* of W there, rounded down */
-    int32_t limit_q8;               /* log2 W must be this much and 2/3 log2 n */
-    uint8_t length;                 /* index of the length that the last piece had */
+    el_texture_axis u, v;
+    uint64_t w, w_dx;             /* W at the span's first pixel, with its margin, and per pixel, Q32 */
+    int32_t w_log2_q8;            /* of W at the next knot, rounded down */
+    int32_t more_q8;              /* if that is so much, pieces become longer */
+    int32_t enough_q8;            /* if it is less at the piece's end, the piece is too long */
+    uint32_t pixels;              /* of a piece that is long enough and does not reach the span's end */
+    uint32_t w_shift, reciprocal; /* leading zeros of W at the next knot, and 2^63 over what is left without them */
+    int32_t limit_q8;             /* log2 W must be this much and 2/3 log2 n */
+    int32_t without_j_q8;         /* three times that, but for J */
+    uint32_t length;              /* index of `pixels` */
+    uint32_t first_length;        /* of the last row's first piece, if W was enough */
+    bool is_curved;               /* the limit depends on the row */
 } el_texture_walk;
 
-/* Begins at column x of the triangle's next row; 0 <= x < 2^16. */
-void el_texture_walk_begin(el_texture_walk *walk, const el_triangle *triangle, int32_t x);
+/* For the rows of a triangle. */
+void el_texture_walk_start(el_texture_walk *walk, const el_triangle *triangle);
 
-/* Makes the next piece of a span that has `left` pixels to go, left >= 1, and returns its length in pixels, 1 to
- * EL_MAX_PIECE: u_q16 and v_q16 belong to its first pixel, the steps lead to the others. */
-int32_t el_texture_walk_piece(el_texture_walk *walk, int32_t left);
+/* Begins a span of so many pixels, 1 at least, at column x of the row that the triangle's planes are at; x and pixels are
+ * below 2^16. */
+void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, uint32_t x, uint32_t pixels);
+
+/* Makes the piece that begins `at` pixels after the span's first, and has `most` pixels at most, 1 or more: those before
+ * the span's last, on which its last knot is, for beyond it 1/w may be anything. Returns its length, 1 to EL_MAX_PIECE:
+ * u.q16 and v.q16 belong to its first pixel, the steps lead to the others. */
+uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most);
+
+/* Makes the last pixel, which no piece has. */
+static inline void el_texture_walk_last(el_texture_walk *walk)
+{
+    walk->u.q16 = walk->u.next_q16;
+    walk->v.q16 = walk->v.next_q16;
+}
 
 #endif

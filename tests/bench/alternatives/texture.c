@@ -38,12 +38,18 @@ BENCH_INLINE void linear(const el_triangle *triangle, const span_target *row, in
 BENCH_INLINE void bounded(const el_triangle *triangle, const span_target *row, int32_t x, int32_t x_end)
 {
     el_texture_walk walk;
-    el_texture_walk_begin(&walk, triangle, x);
-    while (x < x_end) {
-        const int32_t length = el_texture_walk_piece(&walk, x_end - x);
-        linear(triangle, row, x, x + length, walk.u_q16, walk.v_q16, walk.u_step_q16, walk.v_step_q16);
-        x += length;
+    el_texture_walk_start(&walk, triangle);
+    el_texture_walk_begin(&walk, &triangle->perspective, (uint32_t)x, (uint32_t)(x_end - x));
+    uint32_t at = 0;
+    while (x < x_end - 1) {
+        const uint32_t length = el_texture_walk_piece(&walk, at, (uint32_t)(x_end - 1 - x));
+        const int32_t piece_end = x + (int32_t)length;
+        linear(triangle, row, x, piece_end, walk.u.q16, walk.v.q16, walk.u.step_q16, walk.v.step_q16);
+        at += length;
+        x = piece_end;
     }
+    el_texture_walk_last(&walk);
+    linear(triangle, row, x, x_end, walk.u.q16, walk.v.q16, 0, 0);
 }
 
 typedef struct coordinates {
