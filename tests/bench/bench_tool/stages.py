@@ -69,6 +69,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/spans.c", "*", "rows"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
     ("firmware/src/raster/texture_walk.c", "*", "pixels"),
+    ("firmware/src/raster/depth_row.c", "*", "pixels"),
     ("firmware/src/frame/bands.c", "open_band", "sink"),
     ("firmware/src/frame/bands.c", "*wait_for*", "sink"),
     ("firmware/src/frame/bands.c", "*hand_over", "sink"),
