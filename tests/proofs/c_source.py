@@ -55,13 +55,14 @@ DIVISION = ["base/divide.c", "base/reciprocals.c"]
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
-    "geometry/transform.c": ["geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/transform.c": ["geometry/vertex.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/vertex.c": ["base/fixed.c", *DIVISION],
     "geometry/clip.c": ["base/fixed.c", *DIVISION],
     "raster/plane.c": DIVISION,
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
     "raster/rows.c": ["raster/texture_walk.c", "raster/triangle.c", "raster/plane.c", "base/fixed.c", *DIVISION],
-    "raster/gather.c": ["geometry/transform.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "raster/gather.c": ["geometry/vertex.c", "base/fixed.c", *DIVISION],
 }
 
 

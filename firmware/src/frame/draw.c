@@ -380,6 +380,10 @@ static void draw_triangles(drawing *d)
         unsigned codes = v[0]->code | v[1]->code | v[2]->code;
         if (!EL_SMALL_CODE && (codes & EL_CODE_LATER) != 0) {
             codes = transform_later(d, vertices, v);
+            if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
+                el_count(&stats->triangles_outside, 1);
+                continue;
+            }
         }
         if ((codes & EL_CODE_CLIP) != 0) {
             clip_triangle(d, (uint16_t)i, (uint8_t)codes);
