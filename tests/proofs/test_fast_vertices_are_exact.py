@@ -182,7 +182,7 @@ def vertex_domain(machine: Machine) -> list[Any]:
     asked = ASKED[id(machine.path)] = Asked(machine, *any_vertex(machine))
     machine.contracts = {
         "form_value": asked.form_value,
-        "position_of": asked.position_of,
+        "el_transform_position": asked.position_of,
         "el_reciprocal_near": asked.near,
         "snap_fast": asked.snap_fast,
         "keep_reciprocal_fast": asked.keep_reciprocal_fast,

@@ -46,16 +46,30 @@ void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3]
     }
 }
 
+/* What was read from memory is read again behind this: of eight registers none is kept for it. */
+#if defined(__thumb__)
+#define READ_AGAIN() __asm__ volatile("" ::: "memory")
+#else
+#define READ_AGAIN() ((void)0)
+#endif
+
 static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p)
 {
     /* The lower sum is below 3 * 2^14 * 2^15 + 2^15. The upper one with what is carried is the whole one over 2^split:
      * where that is 2^15 it is below EL_ROW_MOST + 2^17, and else it is not shifted and as good modulo 2^32. */
     const el_row *const row = &transform->rows[i];
-    const int32_t low = row->rest_low + row->low[0] * p.x + row->low[1] * p.y + row->low[2] * p.z;
-    const uint32_t high = row->rest_high + (uint32_t)row->high[0] * (uint32_t)p.x +
-                          (uint32_t)row->high[1] * (uint32_t)p.y + (uint32_t)row->high[2] * (uint32_t)p.z +
-                          (uint32_t)(low >> transform->split);
-    return (int32_t)(row->whole + (uint32_t)((int32_t)high >> transform->over));
+    int32_t low = row->rest_low;
+    uint32_t high = row->rest_high;
+    low += row->low[0] * p.x;
+    low += row->low[1] * p.y;
+    low += row->low[2] * p.z;
+    high += (uint32_t)(low >> transform->split);
+    high += (uint32_t)row->high[0] * (uint32_t)p.x;
+    high += (uint32_t)row->high[1] * (uint32_t)p.y;
+    high += (uint32_t)row->high[2] * (uint32_t)p.z;
+    const int32_t value = (int32_t)(row->whole + (uint32_t)((int32_t)high >> transform->over));
+    READ_AGAIN();
+    return value;
 }
 #else
 void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
@@ -96,20 +110,18 @@ void el_transform_set_depth(el_transform *transform, uint64_t near_q32, uint32_t
 #endif
 }
 
-static el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
-{
-    const el_place place = place_of(position);
-    el_clip_vertex vertex;
-    vertex.x = form_value(transform, 0, place);
-    vertex.y = form_value(transform, 1, place);
-    vertex.d = form_value(transform, 2, place);
-    vertex.w = el_transform_is_orthographic(transform) ? transform->constant_w : vertex.d;
-    return vertex;
-}
-
 el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
 {
-    return position_of(transform, position);
+    const el_place place = place_of(position);
+    int32_t coordinates[3];
+    for (unsigned i = 0; i < 3; i++) {
+        coordinates[i] = form_value(transform, i, place);
+    }
+    const int32_t d = coordinates[2];
+    return (el_clip_vertex){.x = coordinates[0],
+                            .y = coordinates[1],
+                            .d = d,
+                            .w = el_transform_is_orthographic(transform) ? transform->constant_w : d};
 }
 
 /* The sides of the view that a vertex is beyond, whatever it and w are: ~w is -w - 1. */
@@ -234,7 +246,7 @@ static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shi
 /* With all bits, where the last ones might matter: one vertex in some hundreds. */
 static EL_SELDOM void project_again(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
-    const el_clip_vertex vertex = position_of(transform, position);
+    const el_clip_vertex vertex = el_transform_position(transform, position);
     el_project(transform, &vertex, screen);
 }
 
@@ -243,6 +255,7 @@ static EL_SPECIALISED void transform_in_view(const el_transform *transform, cons
                                              el_screen_vertex *screen)
 {
     const el_place place = place_of(position);
+    const int16_t *volatile kept = position; /* not in a register, which are scarce, for what comes seldom */
     const int32_t d = form_value(transform, 2, place);
     const int32_t near = transform->near;
     if ((uint32_t)d - (uint32_t)near > (uint32_t)transform->far - (uint32_t)near) {
@@ -270,7 +283,7 @@ static EL_SPECIALISED void transform_in_view(const el_transform *transform, cons
     if (!snap_fast(from_left << (shift - 1U), transform->size[0], reciprocal, &screen->x) ||
         !snap_fast(from_above << (shift - 1U), transform->size[1], reciprocal, &screen->y) ||
         !keep_reciprocal_fast(screen, shift, reciprocal) || !depth_fast(transform, shift, reciprocal, &screen->z)) {
-        project_again(transform, position, screen);
+        project_again(transform, kept, screen);
     }
 }
 
@@ -296,7 +309,7 @@ void el_transform_vertex(const el_transform *transform, const int16_t position[3
         return;
     }
 #endif
-    const el_clip_vertex vertex = position_of(transform, position);
+    const el_clip_vertex vertex = el_transform_position(transform, position);
     screen->code = el_outcode(transform, &vertex);
     if ((screen->code & EL_CODE_CLIP) == 0) {
         el_project(transform, &vertex, screen);
