@@ -55,7 +55,11 @@ DIVISION = ["base/divide.c", "base/reciprocals.c"]
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
-    "geometry/transform.c": ["geometry/cull.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "geometry/transform.c": [
+        *("geometry/cull.c", "geometry/vertex.c", "geometry/pose.c", "base/fixed.c", "base/angle.c"),
+        *DIVISION,
+    ],
+    "geometry/vertex.c": ["base/fixed.c", *DIVISION],
     "geometry/clip.c": ["base/fixed.c", *DIVISION],
     "geometry/cull.c": ["base/fixed.c"],
     "raster/plane.c": DIVISION,
@@ -64,7 +68,7 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/spans.c": [],
     "raster/fill.c": ["raster/spans.c", "raster/fill_texture.c", "raster/texture_walk.c", *DIVISION],
     "raster/fill_texture.c": ["raster/spans.c", "raster/texture_walk.c", *DIVISION],
-    "raster/gather.c": ["geometry/transform.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
+    "raster/gather.c": ["geometry/vertex.c", "base/fixed.c", *DIVISION],
 }
 
 

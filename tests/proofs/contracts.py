@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable
 from typing import Any
 
@@ -124,13 +123,21 @@ def reciprocal_near(machine: Machine, arguments: list[Any]) -> Number:
     return machine.exactly("uint32_t", reciprocal)
 
 
-def dot(machine: Machine, arguments: list[Any]) -> Number:
-    """el_dot_i32_i16: the sum of the products. Pre: |a[0]| + |a[1]| + |a[2]| <= EL_DOT_MOST."""
-    a, b = ([machine.poly(cell) for cell in pointer.cells] for pointer in arguments)
-    most = machine.constant(machine.unit.constants["EL_DOT_MOST"])
-    for signs in itertools.product((1, -1), repeat=3):
-        machine.path.prove(most - weighted(signs, a), "el_dot_i32_i16: the magnitudes' sum")
-    return machine.exactly("int64_t", weighted(a, b))
+def product_near(machine: Machine, arguments: list[Any]) -> Number:
+    """el_product_near_u32: a b / 2^32, too low by less than EL_PRODUCT_ERROR (test_products_are_exact)."""
+    a, b = (argument.poly for argument in arguments)
+    product = machine.path.atom("product", 0, WORD - 1)
+    error = machine.constant(machine.unit.constants["EL_PRODUCT_ERROR"])
+    machine.path.assume(a * b - product * WORD)
+    machine.path.assume((product + error) * WORD - 1 - a * b)
+    return machine.exactly("uint32_t", product)
+
+
+def product_high_u16(machine: Machine, arguments: list[Any]) -> Number:
+    """el_product_high_u16: floor(a b / 2^16). Pre: b < 2^16 (test_products_are_exact)."""
+    a, b = (argument.poly for argument in arguments)
+    machine.path.prove(65535 - b, "el_product_high_u16: b < 2^16")
+    return machine.exactly("uint32_t", machine.path.floor(a * b, 65536))
 
 
 def weighted(a: Iterable[Poly | int], b: Iterable[Poly]) -> Poly:

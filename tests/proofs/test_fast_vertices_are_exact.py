@@ -1,25 +1,26 @@
-"""geometry/transform: what project_inside computes from a reciprocal that is only near is what el_project has.
+"""geometry/vertex: what transform_in_view computes without the last bits is what el_project has.
 
 Let N = w 2^s be the normalised divisor, 2^31 <= N < 2^32, and r = el_reciprocal_near(N). With k = 2^63 - r N, proven
-for every N, 1 <= k < E N, E = EL_RECIPROCAL_ERROR = 18.
+for every N, 1 <= k < E N, E = EL_RECIPROCAL_ERROR = 18. A product a r has g = a r - 2^32 el_product_near_u32(a, r),
+0 <= g < 2^32 G, G = EL_PRODUCT_ERROR = 3.
 
 Snapping. With m = w + c in [0, 2 w], middle + half c / w is half m / w, to the nearest. M = m 2^(s - 1) is at most N,
-and half m / w = 2 half M / N. M r = 2^32 ratio + f gives
+and half m / w = 2 half M / N. M r = 2^32 ratio + g gives
 
-    2^32 (2^31 M - N ratio) = f N + M k,    so 0 <= 2^31 M - N ratio < (E + 1) N.
+    2^32 (2^31 M - N ratio) = g N + M k,    so 0 <= 2^31 M - N ratio < (E + G) N.
 
-Times half that is the sum before rounding, which the C has too low by less than 20 half units of 2^-30. Where its
-fraction is not that near to the next whole number, the whole part o is the nearest: 0 <= 4 half M + N - 2 N o < 2 N,
-which is the same with m and w for M and N.
+Times size 2^-11 N^-1 that is 2^F half m / w less A = floor(2^-11 size ratio), F = SNAP_FRACTION: from 0 to below
+(E + G) 2040 / 2048 + 1 < SNAP_OFF + 1. So A + SNAP_OFF is above 2^F half m / w by SNAP_OFF at most, and below by less
+than 1. Where its fraction is not that near to the whole number below, with the half for rounding, the whole part o is
+the nearest: 0 <= 4 half M + N - 2 N o < 2 N, which is the same with m and w for M and N.
 
-Depth. near = n 2^near_shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N
-count. n r = 2^32 ratio + f gives
+Depth. near = n 2^shift exactly, with n of 32 bits, and near / w = n / (N 2^e), e the excess: only e, n and N count.
+K = depth_near = floor(8 scale n / 2^32) and K r = 2^32 P + g give, with T = 4 scale n / N,
 
-    2^32 (2^31 n - ratio N) = f N + n k,    so 0 <= 2^31 n - ratio N < (E + 1) N,
+    2^32 N P = 2^63 K - K k - g N,    so N P <= 4 scale n < (P + E + G + 1) N.
 
-and depth_of has q = floor(2^32 near / w), 2^32 - 1 where near = w: 2^e q < 2 ratio + 2 (E + 1) and
-2 ratio < 2^e (q + 1). Times the scale, both depths are within the units that are kept free on both sides of the
-fraction.
+depth_of has q = floor(2^32 near / w), 2^32 - 1 where near = w, and so 2^-32 4 scale (q + 1) for T 2^-e: not below it,
+and above it by less than half a unit. What P 2^-e lacks is within the units that are kept free below.
 
 1 / w. el_divisor_make has V = floor((2^64 - 1) / N), and 2 r <= V < 2 r + 2 E: what is rounded to 16 bits is the same
 where r is not as near as that to the next one.
@@ -33,10 +34,10 @@ import pytest
 
 import contracts
 from c_values import ArrayType, Cell
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, quotient_of
+from proof import ARMV6M, EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, quotient_of
 from symbolic import require
 
-TRANSFORM = "geometry/transform.c"
+VERTEX = "geometry/vertex.c"
 WORD = 1 << 32
 I32 = (-(2**31), 2**31 - 1)
 
@@ -51,37 +52,46 @@ def near_reciprocal(machine: Machine, n: Poly) -> tuple[Poly, Poly]:
     return r, 2**63 - r * n
 
 
+def constant_of(machine: Machine, name: str) -> int:
+    return machine.constant(machine.unit.constants[name])
+
+
 def error_of(machine: Machine) -> int:
-    return machine.constant(machine.unit.constants["EL_RECIPROCAL_ERROR"])
+    return constant_of(machine, "EL_RECIPROCAL_ERROR")
+
+
+def error_of_products(machine: Machine) -> int:
+    """Of a product with the reciprocal."""
+    return error_of(machine) + constant_of(machine, "EL_PRODUCT_ERROR")
+
+
+PRODUCTS = {"el_product_near_u32": contracts.product_near, "el_product_high_u16": contracts.product_high_u16}
 
 
 # --- which is asked for what ------------------------------------------------------------------------------------------
 
 
-def inside_domain(machine: Machine) -> list[Any]:
-    """A vertex that is inside by el_outcode, of either projection."""
+def any_vertex(machine: Machine) -> tuple[Any, Any, Any]:
+    """A transform of either projection, any clip coordinates, and where they go."""
     path = machine.path
-    near, far, w = (path.atom(name, 1, 2**31 - 1) for name in ("near", "far", "w"))
-    d = path.atom("d", 1, 2**31 - 1)
-    path.assume(d - near)
-    path.assume(far - d)
-    x, y = path.atom("x", *I32), path.atom("y", *I32)
-    for c in (x, y):
-        path.assume(w - c)
-        path.assume(w + c)
-    transform = machine.struct(
-        "el_transform", near=near, far=far, orthographic=path.choose(path.atom("orthographic", 0, 1))
-    )
+    near, far = path.atom("near", 1, 2**30 - 1), path.atom("far", 1, 2**31 - 1)
+    path.assume(far - near)
+    orthographic = path.choose(path.atom("orthographic", 0, 1))
+    w = path.atom("w", 1, 2**31 - 1)
+    transform = machine.struct("el_transform", near=near, far=far, orthographic=orthographic, constant_w=w)
     machine.put(transform.content["size"], [path.atom("width", 1, 2040), path.atom("height", 1, 2040)])
-    vertex = machine.struct("el_clip_vertex", x=x, y=y, d=d, w=w)
-    return [Pointer([transform]), Pointer([vertex]), Pointer([machine.struct("el_screen_vertex")])]
+    machine.put(transform.content["guard_shift"], [0, 0])
+    vertex = machine.struct("el_clip_vertex", **{axis: path.atom(axis, *I32) for axis in "xyd"})
+    # In perspective w is d, in orthographic projection a constant.
+    machine.put(vertex.content["w"], w if orthographic else machine.poly(vertex, "d"))
+    return transform, vertex, machine.struct("el_screen_vertex")
 
 
 class Asked:
     """The results of el_project and its parts on one path; the fast ways return the same, or nothing."""
 
-    def __init__(self, machine: Machine, arguments: list[Any]) -> None:
-        transform, vertex = arguments[0].cell, arguments[1].cell
+    def __init__(self, machine: Machine, transform: Any, vertex: Any, screen: Any) -> None:
+        self.transform, self.vertex, self.screen = transform, vertex, screen
         self.w = machine.poly(vertex, "w")
         sizes = [machine.poly(transform, "size", i) for i in range(2)]
         x, y = machine.poly(vertex, "x"), machine.poly(vertex, "y")
@@ -131,7 +141,7 @@ class Asked:
 
     def depth_fast(self, machine: Machine, arguments: list[Any]) -> Number:
         transform, w_shift, reciprocal, result = arguments
-        require(machine.poly(transform.cell, "orthographic").known == 0, "in perspective only")
+        machine.path.prove(machine.poly(self.vertex, "d") - machine.poly(transform.cell, "near"), "near <= d")
         unit = self._prove_reciprocal(machine, reciprocal.poly)
         require(unit.known == 1 << w_shift.poly.known, "the shift of w")
         fast = self._either(machine)
@@ -139,42 +149,93 @@ class Asked:
             machine.put(result.cell, self.exact["z"])
         return machine.exactly("_Bool", fast)
 
-    def depth_of(self, machine: Machine, arguments: list[Any]) -> Number:
-        require((arguments[2].poly - self.w).constant == 0, "w")
-        require((contracts.divisor_of(arguments[3]) - self.w).constant == 0, "the divisor of w")
-        return machine.exactly("uint16_t", self.exact["z"])
+    def form_value(self, machine: Machine, arguments: list[Any]) -> Number:
+        return machine.exactly("int32_t", machine.poly(self.vertex, "xyd"[arguments[1].poly.known]))
+
+    def position_of(self, _: Machine, __: list[Any]) -> Any:
+        return self.vertex
+
+    def outcode(self, machine: Machine) -> int:
+        code: Number = machine.call("el_outcode", Pointer([self.transform]), Pointer([self.vertex]))
+        return code.poly.known
 
     def project(self, machine: Machine, arguments: list[Any]) -> None:
+        require(self.outcode(machine) & constant_of(machine, "EL_CODE_CLIP") == 0, "el_project: what can be projected")
         for name, value in self.exact.items():
             machine.put(arguments[2].cell.content[name], value)
+
+    def in_view(self, machine: Machine, _: list[Any]) -> None:
+        """el_transform_vertex_in_view, proven as el_transform_vertices."""
+        inside = self.outcode(machine) == 0
+        machine.put(self.screen.content["code"], 0 if inside else constant_of(machine, "EL_CODE_LATER") | 1)
+        for name, value in self.exact.items() if inside else ():
+            machine.put(self.screen.content[name], value)
 
 
 COORDINATE = (-(2**15), 2**15 - 1)
 
 
-def project_inside() -> Subject:
-    """Each member is from its fast way or from its exact one, asked for the same."""
-    every: dict[int, Asked] = {}
+ASKED: dict[int, Asked] = {}
 
-    def domain(machine: Machine) -> list[Any]:
-        arguments = inside_domain(machine)
-        asked = every[id(machine.path)] = Asked(machine, arguments)
-        machine.contracts = {
-            "el_divisor_make": contracts.divisor_make,
-            "el_reciprocal_near": asked.near,
-            "snap_fast": asked.snap_fast,
-            "keep_reciprocal_fast": asked.keep_reciprocal_fast,
-            "depth_fast": asked.depth_fast,
-            "depth_of": asked.depth_of,
-            "el_project": asked.project,
-        }
-        return arguments
 
-    def check(machine: Machine, arguments: list[Any], _: Any) -> None:
-        for name, value in every.pop(id(machine.path)).exact.items():
-            machine.path.prove(machine.poly(arguments[2].cell, name) - value, f"{name} is el_project's", zero=True)
+def vertex_domain(machine: Machine) -> list[Any]:
+    asked = ASKED[id(machine.path)] = Asked(machine, *any_vertex(machine))
+    machine.contracts = {
+        "form_value": asked.form_value,
+        "el_transform_position": asked.position_of,
+        "el_reciprocal_near": asked.near,
+        "snap_fast": asked.snap_fast,
+        "keep_reciprocal_fast": asked.keep_reciprocal_fast,
+        "depth_fast": asked.depth_fast,
+        "el_project": asked.project,
+    }
+    return [Pointer([asked.transform]), machine.array("int16_t", [0, 0, 0]), Pointer([asked.screen])]
 
-    return Subject(TRANSFORM, "project_inside", domain, check, ["project_inside"])
+
+def later_domain(machine: Machine) -> list[Any]:
+    """el_transform_vertex, which begins with what is proven of the others."""
+    arguments = vertex_domain(machine)
+    machine.contracts = {**machine.contracts, "el_transform_vertex_in_view": ASKED[id(machine.path)].in_view}
+    return arguments
+
+
+def several_domain(machine: Machine) -> list[Any]:
+    """el_transform_vertices, of one: each is by itself."""
+    transform, position, screen = vertex_domain(machine)
+    row = Cell(ArrayType(machine.type_named("int16_t"), 3), position.cells)
+    return [transform, Pointer([row]), machine.exactly("uint32_t", 1), screen]
+
+
+def is_projected(machine: Machine, asked: Asked) -> None:
+    for name, value in asked.exact.items():
+        machine.path.prove(machine.poly(asked.screen, name) - value, f"{name} is el_project's", zero=True)
+
+
+def vertex_check(machine: Machine, _: list[Any], __: Any) -> None:
+    """The code is el_outcode's; what can be projected is."""
+    asked = ASKED.pop(id(machine.path))
+    code = asked.outcode(machine)
+    require(machine.poly(asked.screen, "code").known == code, "its code")
+    if code & constant_of(machine, "EL_CODE_CLIP") == 0:
+        is_projected(machine, asked)
+
+
+def in_view_check(machine: Machine, _: list[Any], __: Any) -> None:
+    """What is in the view is projected; else the code has a side of el_outcode's, and that the rest is left."""
+    asked = ASKED.pop(id(machine.path))
+    code, exact = machine.poly(asked.screen, "code").known, asked.outcode(machine)
+    if exact == 0:
+        require(code == 0, "its code")
+        is_projected(machine, asked)
+        return
+    later = constant_of(machine, "EL_CODE_LATER")
+    require(code & later != 0 and code != later, "a side, and the rest later")
+    require(code & ~(exact | later) == 0, "a side that it is beyond")
+
+
+def vertices(core: str) -> Subject:
+    modular = ["el_transform_vertices", "transform_in_view"]
+    return Subject(VERTEX, "el_transform_vertices", several_domain, in_view_check, modular, core=core)
 
 
 # --- snapping ---------------------------------------------------------------------------------------------------------
@@ -193,71 +254,61 @@ def snap_domain(machine: Machine) -> list[Any]:
         path.assume_product(n - m, k - 1)
         path.assume_product(n, n * error_of(machine) - 1 - k)
         path.assume_product(WORD - 1 - n, n)
-        SNAPS[id(path)] = (m, n, half_of(machine, size), r)
+        path.assume_product(2040 - size, n)
+        SNAPS[id(path)] = (m, n, size, r)
     numbers = machine.exactly("uint32_t", m), machine.exactly("uint16_t", size), machine.exactly("uint32_t", r)
     return [*numbers, machine.array("el_coordinate", [0])]
-
-
-def half_of(machine: Machine, size: Poly) -> Poly:
-    return size * (machine.constant(machine.unit.constants["EL_GUARD_SUB"]) // 4080)
 
 
 SNAPS: dict[int, tuple[Poly, Poly, Poly, Poly]] = {}
 
 
-def too_low(machine: Machine, m: Poly, n: Poly, r: Poly, ratio: Poly) -> Poly:
-    """2^31 M - N ratio, and that it is in [0, (E + 1) N)."""
-    path = machine.path
-    f, k = m * r - ratio * WORD, 2**63 - r * n
-    path.prove(f, "f >= 0")
-    path.prove(WORD - 1 - f, "f < 2^32")
-    path.assume_product(f, n)
-    path.assume_product(WORD - 1 - f, n)
-    low = m * 2**31 - n * ratio
-    require((low * WORD - f * n - m * k).constant == 0, "2^32 (2^31 M - N ratio) = f N + M k")
-    path.prove(low, "not too high")
-    path.prove(n * (error_of(machine) + 1) - 1 - low, "too low by less than E + 1")
-    return low
-
-
 def ratio_lemma(machine: Machine, ratio: Number) -> Number:
-    """How much too low, times half; and M <= N, so the ratio is at most 1."""
-    m, n, half, r = SNAPS[id(machine.path)]
-    low = too_low(machine, m, n, r, ratio.poly)
-    machine.path.assume_product(low, half)
-    machine.path.assume_product(n * (error_of(machine) + 1) - 1 - low, half)
-    quotient_of(machine.path, 2**31 - ratio.poly, n, "M <= N")
+    """How much too low, times the size; and M <= N, so the ratio is at most 1."""
+    path = machine.path
+    m, n, size, r = SNAPS[id(path)]
+    g, k = m * r - ratio.poly * WORD, 2**63 - r * n
+    path.assume_product(g, n)
+    path.assume_product(constant_of(machine, "EL_PRODUCT_ERROR") * WORD - 1 - g, n)
+    low = m * 2**31 - n * ratio.poly
+    require((low * WORD - g * n - m * k).constant == 0, "2^32 (2^31 M - N ratio) = g N + M k")
+    path.prove(low, "not too high")
+    most = n * error_of_products(machine) - 1 - low
+    path.prove(most, "too low by less than E + G")
+    path.assume_product(low, size)
+    path.assume_product(most, size)
+    quotient_of(path, 2**31 - ratio.poly, n, "M <= N")
+    path.assume_product(2**31 - ratio.poly, size)
     return ratio
-
-
-def scaled_lemma(machine: Machine, scaled: Number) -> Number:
-    """The ratio is at most 1, times half: the result fits its type before it is known to be right."""
-    machine.path.assume_product(2**31 - machine.locals["snap_fast.ratio"].poly, SNAPS[id(machine.path)][2])
-    return scaled
 
 
 def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """The nearest, ties up."""
-    m, n, half, _ = SNAPS.pop(id(machine.path))
+    m, n, size, _ = SNAPS.pop(id(machine.path))
     path = machine.path
     if result.poly.constant == 0:
         return
     o = machine.poly(arguments[3].cell)
-    fraction = machine.locals["snap_fast.scaled"].poly - o * 2**30
-    # Less than what is kept free, of N.
-    path.assume_product(fraction, n)
-    path.assume_product(2**30 - half * 20 - fraction, n)
-    path.prove(m * half * 4 + n - n * o * 2, "not above the nearest")
-    path.prove(n * 2 - 1 - m * half * 4 - n + n * o * 2, "not below the nearest")
+    unit, off = 1 << constant_of(machine, "SNAP_FRACTION"), constant_of(machine, "SNAP_OFF")
+    scaled = machine.locals["snap_fast.scaled"].poly
+    cut_off = machine.locals["snap_fast.ratio"].poly * size - (scaled - unit // 2 - off) * 2**11
+    fraction = scaled - o * unit
+    for part in (cut_off, 2**11 - 1 - cut_off, fraction - off, unit - 1 - fraction):
+        path.assume_product(part, n)
+    # half is size 2^(19 - F)
+    error = m * size * (2**21 // unit) + n - n * o * 2
+    path.prove(error, "not above the nearest")
+    path.prove(n * 2 - 1 - error, "not below the nearest")
 
 
 SNAP = Subject(
-    TRANSFORM,
+    VERTEX,
     "snap_fast",
     snap_domain,
     snap_check,
     ["snap_fast"],
-    lemmas={"snap_fast.ratio": ratio_lemma, "snap_fast.scaled": scaled_lemma},
+    contracts=PRODUCTS,
+    lemmas={"snap_fast.ratio": ratio_lemma},
 )
 
 
@@ -276,27 +327,30 @@ def nearest_is_snapped(tie: int) -> Subject:
         path.prove(w - 1 - snapped, "not below snap's")
         return [machine.exactly("uint16_t", 1)]
 
-    return Subject(TRANSFORM, "guard_shift", domain)
+    return Subject("geometry/transform.c", "guard_shift", domain)
 
 
 # --- depth ------------------------------------------------------------------------------------------------------------
 
 
 def depth_domain(machine: Machine) -> list[Any]:
-    """near <= w in perspective; of the two shifts only their sum counts, here as in the C."""
+    """near <= w in perspective; of the two shifts only their difference counts, here as in the C. Or no short way."""
     path = machine.path
-    near = path.atom("near_bits", 2**31, WORD - 1)
-    scale = path.atom("depth_scale", 65534 << 12, 65534 * 9 << 12)
-    excess = path.choose(path.atom("excess", 0, 32))
-    shift = path.atom("shift", 1, 31)
-    transform = machine.struct("el_transform", near_bits=near, near_shift=32 - shift - excess, depth_scale=scale)
     n = path.atom("N", 2**31, WORD - 1)
-    path.assume(n * (1 << excess) - near)
+    near, scale = path.atom("near_bits", 2**31, WORD - 1), path.atom("depth_scale", 65534 << 12, 2**29 - 1)
+    excess = path.choose(path.atom("excess", -1, 31))
+    shift = path.choose(path.atom("shift", 1, 31)) if excess < 0 else 1
+    k_near = path.floor(scale * near * 8, WORD)
+    transform = machine.struct(
+        "el_transform", depth_near=k_near, depth_excess=max(0, excess + shift), depth_scale=scale
+    )
+    path.assume(n * (1 << max(excess, 0)) - near)
     r, k = near_reciprocal(machine, n)
     if n.constant is None:
-        path.assume_product(near, k - 1)
-        path.assume_product(near, n * error_of(machine) - 1 - k)
-        path.assume_product(WORD - 1 - near, n)
+        path.assume_product(k_near, k)
+        path.assume_product(k_near, n * error_of(machine) - 1 - k)
+        path.assume_product(WORD - 1 - k_near, n)
+        path.assume_product(n * (1 << max(excess, 0)) - near, scale)
         DEPTHS[id(path)] = (near, scale, excess, n, r)
     numbers = machine.exactly("unsigned", shift), machine.exactly("uint32_t", r), machine.array("uint16_t", [0])
     return [Pointer([transform]), *numbers]
@@ -305,32 +359,40 @@ def depth_domain(machine: Machine) -> list[Any]:
 DEPTHS: dict[int, tuple[Poly, Poly, int, Poly, Poly]] = {}
 
 
-def near_lemma(machine: Machine, ratio: Number) -> Number:
-    """How much too low; and near <= w, so scale near / w is not above the scale."""
+def depth_product(machine: Machine, arguments: list[Any]) -> Number:
+    """P, and N P <= 4 scale n < (P + E + G + 1) N; so P is at most 4 scale 2^e."""
     path = machine.path
     near, scale, excess, n, r = DEPTHS[id(path)]
-    too_low(machine, near, n, r, ratio.poly)
-    quotient_of(path, 2**31 * (1 << excess) - ratio.poly, n, "near <= w")
-    path.assume_product(2**31 * (1 << excess) - ratio.poly, scale)
-    return ratio
+    product = contracts.product_near(machine, arguments)
+    p, k_near = product.poly, arguments[0].poly
+    g, k = k_near * r - p * WORD, 2**63 - r * n
+    path.assume_product(g, n)
+    path.assume_product(constant_of(machine, "EL_PRODUCT_ERROR") * WORD - 1 - g, n)
+    require((n * p * WORD - k_near * 2**63 + k_near * k + g * n).constant == 0, "2^32 N P = 2^63 K - K k - g N")
+    path.prove(scale * near * 4 - n * p, "not too high")
+    path.prove(n * (p + error_of_products(machine) + 1) - scale * near * 4 - 1, "too low by less than E + G + 1")
+    quotient_of(path, scale * (4 << excess) - p, n, "P <= 4 scale 2^e")
+    return product
 
 
 def depth_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     path = machine.path
     near, scale, excess, n, _ = DEPTHS.pop(id(path))
+    require(excess >= 0 or result.poly.constant == 0, "the short way is not taken")
     if result.poly.constant == 0:
         return
-    ratio = machine.locals["depth_fast.ratio"].poly
+    p = machine.locals["depth_fast.product"].poly
 
     # depth_of's quotient, near / w in Q32.
     q = Poly.of(WORD - 1)
     if path.decide(n * (1 << excess) - near - 1, near - n * (1 << excess)):
         q = path.new_quotient(near * WORD, n * (1 << excess), 0, WORD - 1)
-    above, below = (ratio + error_of(machine) + 1) * 2 - q * (1 << excess), (q + 1) * (1 << excess) - ratio * 2
-    quotient_of(path, above, n, "2^e q <= 2 ratio + 2 (E + 1)")
-    quotient_of(path, below, n, "2 ratio <= 2^e (q + 1)")
-    path.assume_product(above, scale)
-    path.assume_product(below, scale)
+    path.assume_product(near * WORD - q * n * (1 << excess), scale)
+    path.assume_product((q + 1) * n * (1 << excess) - near * WORD, scale)
+    above = (p + error_of_products(machine) + 1) * WORD - scale * q * (4 << excess)
+    below = scale * (q + 1) * (4 << excess) - p * WORD
+    quotient_of(path, above, n, "2^e 4 scale q <= 2^32 (P + E + G + 1)")
+    quotient_of(path, below, n, "2^32 P <= 2^e 4 scale (q + 1)")
     z = machine.poly(arguments[3].cell)
     rounded = scale * (WORD - 1 - q) + 2**43 - z * 2**44
     path.prove(rounded, "depth_of is not below")
@@ -338,7 +400,49 @@ def depth_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     path.prove(65534 - z, "depth_of leaves it as it is")
 
 
-DEPTH = Subject(TRANSFORM, "depth_fast", depth_domain, depth_check, lemmas={"depth_fast.ratio": near_lemma})
+DEPTH = Subject(VERTEX, "depth_fast", depth_domain, depth_check, contracts={"el_product_near_u32": depth_product})
+
+
+def set_depth_domain(machine: Machine) -> list[Any]:
+    """near of 32 bits, moved up; and moved down, where no bit may be lost."""
+    path = machine.path
+    shift = path.choose(path.atom("shift", -11, 29))
+    near = path.atom("near", 2**31 >> max(0, -shift), (WORD - 1) >> max(0, -shift)) * (1 << max(0, shift))
+    scale = path.atom("scale", 65534 << 12, 65534 * 9 << 12)
+    NEARS[id(path)] = (near, shift, scale)
+    transform = machine.struct("el_transform")
+    return [Pointer([transform]), machine.exactly("uint64_t", near), machine.exactly("uint32_t", scale)]
+
+
+NEARS: dict[int, tuple[Poly, int, Poly]] = {}
+
+
+def set_depth_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """near is rounded up; K is floor(8 scale n / 2^32) with near = n 2^shift, and the excess 32 - shift."""
+    near, shift, scale = NEARS.pop(id(machine.path))
+    transform, path = arguments[0].cell, machine.path
+    rest = machine.poly(transform, "near") * WORD - near
+    path.prove(rest, "not below near")
+    path.prove(WORD - 1 - rest, "near, rounded up")
+    excess = machine.poly(transform, "depth_excess").known
+    require(excess in (0, 32 - shift), "the excess")
+    if excess != 0:
+        require(shift >= 0, "near has 32 bits")
+        path.prove(2**29 - 1 - scale, "its scale is small")
+        rest = scale * near * 8 - machine.poly(transform, "depth_near") * (1 << (32 + shift))
+        path.prove(rest, "K is not above")
+        path.prove((1 << (32 + shift)) - 1 - rest, "K is not below")
+
+
+def product_high(machine: Machine, arguments: list[Any]) -> Number:
+    """el_product_high_u32 (test_products_are_exact)."""
+    a, b = (argument.poly for argument in arguments)
+    return machine.exactly("uint32_t", machine.path.floor(a * b, WORD))
+
+
+SET_DEPTH = Subject(
+    VERTEX, "el_transform_set_depth", set_depth_domain, set_depth_check, contracts={"el_product_high_u32": product_high}
+)
 
 # --- 1 / w ------------------------------------------------------------------------------------------------------------
 
@@ -375,70 +479,16 @@ def keep_check(machine: Machine, arguments: list[Any], result: Number) -> None:
         machine.path.prove(machine.poly(arguments[0].cell, name) - machine.poly(exact, name), name, zero=True)
 
 
-KEEP = Subject(TRANSFORM, "keep_reciprocal_fast", keep_domain, keep_check, ["keep_reciprocal_fast"])
+KEEP = Subject(VERTEX, "keep_reciprocal_fast", keep_domain, keep_check, ["keep_reciprocal_fast"])
 
-# --- which way --------------------------------------------------------------------------------------------------------
-
-
-def vertex_domain(machine: Machine) -> list[Any]:
-    """Any clip coordinates; far is not below near."""
-    path = machine.path
-    near, far = path.atom("near", 1, 2**30 - 1), path.atom("far", 1, 2**31 - 1)
-    path.assume(far - near)
-    transform = machine.struct("el_transform", near=near, far=far)
-    machine.put(transform.content["guard_shift"], [0, 0])
-    vertex = machine.struct("el_clip_vertex", **{axis: path.atom(axis, *I32) for axis in "xyd"})
-    # In perspective w is d, in orthographic projection a constant.
-    orthographic = path.choose(path.atom("orthographic", 0, 1))
-    w = path.atom("w", 1, 2**31 - 1) if orthographic else machine.poly(vertex, "d")
-    machine.put(vertex.content["w"], w)
-    machine.contracts = {
-        "position_of": lambda *_: vertex,
-        "project_inside": inside_contract,
-        "el_project": lambda *_: None,
-    }
-    screen = machine.struct("el_screen_vertex")
-    VERTICES[id(path)] = (transform, vertex, screen)
-    return [Pointer([transform]), machine.array("int16_t", [0, 0, 0]), Pointer([screen])]
-
-
-VERTICES: dict[int, tuple[Any, Any, Any]] = {}
-
-
-def several_domain(machine: Machine) -> list[Any]:
-    """el_transform_vertices, of one: each is by itself."""
-    transform, position, screen = vertex_domain(machine)
-    row = Cell(ArrayType(machine.type_named("int16_t"), 3), position.cells)
-    return [transform, Pointer([row]), machine.exactly("uint32_t", 1), screen]
-
-
-def vertex_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """The code is el_outcode's, or has its sides and says that the rest is left for later."""
-    transform, vertex, screen = VERTICES.pop(id(machine.path))
-    code, later = machine.poly(screen, "code").known, machine.constant(machine.unit.constants["EL_CODE_LATER"])
-    exact = machine.call("el_outcode", Pointer([transform]), Pointer([vertex])).poly.known
-    sides = exact & machine.constant(machine.unit.constants["EL_CODE_OUTSIDE"])
-    require(code == exact or (len(arguments) == 4 and code == sides | later), "its code")
-
-
-def inside_contract(machine: Machine, arguments: list[Any]) -> None:
-    """What comes here has no outcode, and is what project_inside is proven for."""
-    transform, vertex, screen = arguments
-    code = machine.call("el_outcode", transform, vertex)
-    require(code.poly.constant == 0 and machine.poly(screen.cell, "code").constant == 0, "inside by el_outcode")
-    x, y, d, w = (machine.poly(vertex.cell, axis) for axis in "xydw")
-    for bound in (w - x, w + x, w - y, w + y, w - 1, d - machine.poly(transform.cell, "near")):
-        machine.path.prove(bound, "project_inside: |x|, |y| <= w, near <= d")
-
-
-MODULAR = ["el_transform_vertex", "el_transform_vertices", "is_in_view"]
 SUBJECTS = {
     "snap": SNAP,
     "depth": DEPTH,
+    "set depth": SET_DEPTH,
     "1/w": KEEP,
-    "inside": project_inside(),
-    "vertex": Subject(TRANSFORM, "el_transform_vertex", vertex_domain, vertex_check, MODULAR),
-    "vertices": Subject(TRANSFORM, "el_transform_vertices", several_domain, vertex_check, MODULAR),
+    "vertex": Subject(VERTEX, "el_transform_vertex", later_domain, vertex_check),
+    "vertices": vertices(""),
+    "vertices, armv6m": vertices(ARMV6M),
 }
 
 
@@ -458,29 +508,31 @@ def test_the_nearest_is_what_is_snapped() -> None:
 
 
 @EVERY_PRECISION
-@pytest.mark.parametrize("name", ["snap", "depth", "1/w"])
+@pytest.mark.parametrize("name", ["snap", "depth", "set depth", "1/w"])
 def test_the_compiler_agrees(name: str, bits: int) -> None:
     subject = SUBJECTS[name]
-    Subject(TRANSFORM, subject.function, subject.domain, modular=subject.modular).agree(bits, count=200)
+    Subject(VERTEX, subject.function, subject.domain, modular=subject.modular).agree(bits, count=200)
 
 
 @pytest.mark.parametrize(
     ("name", "old", "new"),
     [
-        ("snap", "half * (20U << 2)", "half * (18U << 2)"),
-        ("snap", "+ (1U << 29);", "+ (1U << 28);"),
-        ("depth", "OFF = 24", "OFF = 10"),
-        ("depth", "depth_scale >> 1) - high", "depth_scale >> 1) - high - 9U"),
-        ("1/w", "0x10000U - EL_RECIPROCAL_ERROR", "0x10000U - EL_RECIPROCAL_ERROR + 2U"),
-        ("1/w", "rounded > 0xFFFFU ? 0xFFFFU", "rounded > 0x10000U ? 0xFFFFU"),
-        ("inside", "el_reciprocal_near(w << shift)", "el_reciprocal_near(w << shift | 1U)"),
-        ("inside", "(w - (uint32_t)vertex->y) << (shift - 1U)", "(w + (uint32_t)vertex->y) << (shift - 1U)"),
-        ("inside", "snap_fast(y, transform->size[1]", "snap_fast(y, transform->size[0]"),
-        ("inside", "el_transform_is_orthographic(transform) || !depth_fast", "!depth_fast"),
-        ("vertex", "(uint32_t)vertex->y + w <= 2U * w", "(uint32_t)vertex->y + w <= 2U * w + 1U"),
-        ("vertex", "(uint32_t)vertex->d - near <=", "(uint32_t)vertex->d <="),
-        ("vertices", "(outside_code(transform, &vertex) | EL_CODE_LATER)", "(EL_CODE_LATER)"),
+        ("snap", "SNAP_OFF = 21", "SNAP_OFF = 20"),
+        ("snap", "(1U << SNAP_FRACTION) / 2U", "(1U << SNAP_FRACTION) / 4U"),
+        ("depth", "DEPTH_OFF = 23", "DEPTH_OFF = 22"),
+        ("depth", "(1U << DEPTH_FRACTION) / 2U - (product", "(1U << DEPTH_FRACTION) / 2U + 1U - (product"),
+        ("set depth", "scale_q12 < 1U << 29", "scale_q12 <= 1U << 29"),
+        ("set depth", "near_q32 >> shift)", "near_q32 >> shift) + 1U"),
+        ("1/w", "& 0xFFFFU) >= EL_RECIPROCAL_ERROR", "& 0xFFFFU) >= EL_RECIPROCAL_ERROR - 2U"),
+        ("1/w", " && (int32_t)rounded < 0", ""),
+        ("vertex", "(screen->code & EL_CODE_CLIP) == 0", "(screen->code & EL_CODE_GUARD) == 0"),
+        ("vertices", "el_reciprocal_near(normalised)", "el_reciprocal_near(normalised | 1U)"),
+        ("vertices", "snap_fast(from_above << (shift - 1U)", "snap_fast(from_left << (shift - 1U)"),
+        ("vertices", "shift - 1U), transform->size[1]", "shift - 1U), transform->size[0]"),
+        ("vertices", "from_above > 2U * w", "from_above > 2U * w + 1U"),
+        ("vertices", "d < near ? EL_CODE_NEAR", "d <= near ? EL_CODE_FAR"),
+        ("vertices", "y < 0 ? EL_CODE_BELOW", "y > 0 ? EL_CODE_BELOW"),
     ],
 )
 def test_the_proof_can_fail(name: str, old: str, new: str) -> None:
-    SUBJECTS[name].fails_with(Fault(TRANSFORM, old, new))
+    SUBJECTS[name].fails_with(Fault(VERTEX, old, new))

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-import contracts
 from proof import ARMV6M, Fault, Machine, Number, Poly, Subject, congruent
 
 FIXED, FIXED_H, PLANE = "base/fixed.c", "base/fixed.h", "raster/plane.c"
@@ -83,33 +82,6 @@ def down_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     machine.path.prove(2**11 - 1 - rest, "not below")
 
 
-def dot_domain(machine: Machine) -> list[Any]:
-    """A row's elements in the two parts that the C has of them, the lower one of either sign; |a| up to EL_DOT_MOST in
-    sum, so that the upper parts' |high| 2^15 add up to 3 * 2^14 more."""
-    path = machine.path
-    row, position, magnitudes = [], [], Poly.of(0)
-    for i in range(3):
-        high, low = path.atom(f"high{i}", -(2**16), 2**16), path.atom(f"low{i}", -(2**14), 2**14 - 1)
-        b = path.atom(f"b{i}", -(2**15), 2**15 - 1)
-        path.decide(low, -low - 1)
-        row.append(high * 2**15 + low)
-        position.append(b)
-        if high.constant is not None:
-            magnitudes += abs(high.constant)
-            continue
-        magnitude = path.atom(f"|high{i}|", 0, 2**16)
-        for bound in (magnitude - high, magnitude + high, magnitude * 2**15 - high * b, magnitude * 2**15 + high * b):
-            path.assume(bound)
-        magnitudes += magnitude
-    path.assume(machine.constant(machine.unit.constants["EL_DOT_MOST"]) + 3 * 2**14 - magnitudes * 2**15)
-    return [machine.array("int32_t", row), machine.array("int16_t", position)]
-
-
-def dot_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    a, b = ([machine.poly(cell) for cell in pointer.cells] for pointer in arguments)
-    machine.path.prove(result.poly - contracts.weighted(a, b), "the sum of the products", zero=True)
-
-
 def modulo_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     a, b = (argument.poly for argument in arguments)
     congruent(result.poly, a * b, RING, "a b modulo 2^64")
@@ -126,6 +98,22 @@ def high_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     rest = a * b - result.poly * 2**32
     machine.path.prove(rest, "not above")
     machine.path.prove(2**32 - 1 - rest, "not below")
+
+
+def near_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """a b / 2^32, too low by less than EL_PRODUCT_ERROR."""
+    a, b = (argument.poly for argument in arguments)
+    rest = a * b - result.poly * 2**32
+    machine.path.prove(rest, "not too high")
+    machine.path.prove(machine.constant(machine.unit.constants["EL_PRODUCT_ERROR"]) * 2**32 - 1 - rest, "not too low")
+
+
+def upper_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """floor(a b / 2^16)."""
+    a, b = (argument.poly for argument in arguments)
+    rest = a * b - result.poly * 2**16
+    machine.path.prove(rest, "not above")
+    machine.path.prove(2**16 - 1 - rest, "not below")
 
 
 def area_domain(machine: Machine) -> list[Any]:
@@ -167,11 +155,12 @@ def subjects(core: str) -> dict[str, Subject]:
         product("el_multiply_u64", factors(WORDS, SHORT_SIGNED), modulo_check, "el_multiply_u64", "el_multiply_u16"),
         product("el_product_u64", factors(HALVES, HALVES), exact_check),
         product("el_product_u32_u16", factors(HALVES, SHORT), exact_check),
+        product("el_product_near_u32", factors(HALVES, HALVES), near_check),
+        product("el_product_high_u16", factors(HALVES, SHORT), upper_check),
         of_product("el_product_high_u32", factors(UNSIGNED, UNSIGNED), high_check),
         of_product("el_product_i32", factors(SIGNED, SIGNED), exact_check),
         of_product("el_multiply_high_i32_u32", high_domain, high_check),
         product("el_product_down_11", down_domain, down_check),
-        product("el_dot_i32_i16", dot_domain, dot_check, "el_add_halves", "el_dot_i32_i16"),
         product(
             "el_plane_times",
             times_domain,
@@ -214,13 +203,13 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_product_u64", FIXED_H, "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
         ("el_product_u64", FIXED_H, "(first >> 16) + (second >> 16)", "(first >> 16)"),
         ("el_product_u32_u16", FIXED_H, "(a >> 16) * b + (low >> 16)", "(a >> 16) * b"),
+        ("el_product_near_u32", FIXED_H, "((a_high * (b & 0xFFFFU)) >> 16) + ", ""),
+        ("el_product_near_u32", FIXED_H, "(((a & 0xFFFFU) * b_high) >> 16)", "(((a & 0xFFFFU) * b_high) >> 15)"),
+        ("el_product_high_u16", FIXED_H, "(a >> 16) * b + (((a & 0xFFFFU) * b) >> 16)", "(a >> 16) * b"),
         ("el_product_high_u32", FIXED_H, "(el_product_u64(a, b) >> 32)", "(el_product_u64(a, b) >> 33)"),
         ("el_product_i32", FIXED_H, "+ (b < 0 ? (uint32_t)a : 0U)", "+ (b < 0 ? 0U - (uint32_t)a : 0U)"),
         ("el_multiply_high_i32_u32", FIXED_H, "- (a < 0 ? b : 0U)", "- (a < 0 ? b - 1U : 0U)"),
         ("el_product_down_11", FIXED_H, "a * (b >> 16) * (1 << 5)", "a * (b >> 16) * (1 << 4)"),
-        ("el_dot_i32_i16", FIXED_H, "(uint32_t)a << 17) >> 17", "(uint32_t)a << 16) >> 16"),
-        ("el_dot_i32_i16", FIXED_H, "((int32_t)high >> 17)", "(high >> 17)"),
-        ("el_dot_i32_i16", FIXED_H, "EL_DOT_MOST = 0x7FFF0000", "EL_DOT_MOST = 0x7FFF8000"),
         ("el_plane_times", "raster/plane.h", "(count + 0xFFFF) <= 2U * 0xFFFFU", "(count + 0xFFFF) <= 2U * 0x1FFFFU"),
         ("el_doubled_area", "raster/plane.h", "bias = 1U << 14", "bias = 1U << 15"),
     ],

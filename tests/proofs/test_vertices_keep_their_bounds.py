@@ -1,4 +1,4 @@
-"""geometry/transform and geometry/clip: from a position to the snapped screen, and the new vertices of cut triangles.
+"""geometry/vertex and geometry/clip: from a position to the snapped screen, and the new vertices of cut triangles.
 
 el_transform_position's domain is what el_transform_make promises. All that comes after it is proven for any clip
 coordinates of 32 bits, also those of a mesh whose bounding sphere is a lie: el_outcode first, then el_project for the
@@ -17,10 +17,11 @@ from typing import Any
 import pytest
 
 import contracts
-from proof import EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
+from c_values import ArrayType, Cell
+from proof import ARMV6M, EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
 from symbolic import Path, require
 
-TRANSFORM, CLIP = "geometry/transform.c", "geometry/clip.c"
+TRANSFORM, VERTEX, CLIP = "geometry/transform.c", "geometry/vertex.c", "geometry/clip.c"
 I32 = (-(2**31), 2**31 - 1)
 
 
@@ -31,42 +32,116 @@ def constant_of(machine: Machine, name: str) -> int:
 # --- position to clip space -------------------------------------------------------------------------------------------
 
 
-def form_domain(machine: Machine) -> list[Any]:
-    """|offset| < 2^62, rows as el_dot_i32_i16 has them, positions of 16 bits, a shift of 1..31.
+def row_of(machine: Machine, core: str, shift: int) -> tuple[dict[str, Any], list[Poly], Poly]:
+    """The members of a row and of its transform, the elements that they stand for, and the offset."""
+    path = machine.path
+    if core != ARMV6M:
+        elements, offset = [path.atom(f"row{i}", *I32) for i in range(3)], path.atom("offset", -(2**62) + 1, 2**62 - 1)
+        return {"shift": shift, "offset": offset, "elements": elements}, elements, offset
+    split = min(shift, 15)
+    half = 1 << (split - 1)
+    high = [path.atom(f"high{i}", -(2**31 >> split), 2**31 >> split) for i in range(3)]
+    low = [path.atom(f"low{i}", -half, half) for i in range(3)]
+    whole = path.atom("whole", -(2**62 >> shift), 2**62 >> shift)
+    rest_high = path.atom("rest_high", 0, (1 << (shift - split)) - 1)
+    rest_low = path.atom("rest_low", 0, (1 << split) - 1)
+    members = {"split": split, "over": shift - split, "high": high, "low": low}
+    members |= {"whole": whole - path.floor(whole, 2**32) * 2**32, "rest_high": rest_high, "rest_low": rest_low}
+    offset = whole * (1 << shift) + rest_high * (1 << split) + rest_low
+    return members, [h * (1 << split) + lo for h, lo in zip(high, low, strict=True)], offset
+
+
+def form_domain(core: str) -> Any:
+    """|offset| < 2^62, rows as el_transform_set_rows has them, positions of 16 bits, a shift of 1..31.
 
     The sum is within 32 bits after it.
     """
+
+    def domain(machine: Machine) -> list[Any]:
+        path = machine.path
+        shift = path.choose(path.atom("shift", 1, 31))
+        members, row, offset = row_of(machine, core, shift)
+        most = constant_of(machine, "EL_ROW_MOST")
+        for signs in itertools.product((1, -1), repeat=3):
+            path.assume(most - contracts.weighted(signs, row))
+        position = [path.atom(f"p{i}", -(2**15), 2**15 - 1) for i in range(3)]
+        if core == ARMV6M and shift > 15 and row[0].constant is None:
+            bound_upper_sum(machine, members["high"], position)
+        total = contracts.weighted(row, position) + offset
+        path.assume(total + 2 ** (31 + shift))
+        path.assume(2 ** (31 + shift) - 1 - total)
+        TOTALS[id(path)] = (total, 1 << shift)
+        transform = machine.struct("el_transform")
+        of_row = transform.content["rows"].content[0].content
+        for name, value in members.items():
+            machine.put((of_row if name in of_row else transform.content)[name], value)
+        place = machine.struct("el_place", x=position[0], y=position[1], z=position[2])
+        return [Pointer([transform]), machine.exactly("uint32_t", 0), place]
+
+    return domain
+
+
+def bound_upper_sum(machine: Machine, high: list[Poly], position: list[Poly]) -> None:
+    """|high| 2^15 is at most 2^14 more than the element's magnitude, so these add up to 3 * 2^14 more; and times a
+    position it is at most 2^15 times as much."""
     path = machine.path
-    rows = [path.atom(f"row{i}", *I32) for i in range(3)]
-    for signs in itertools.product((1, -1), repeat=3):
-        path.assume(constant_of(machine, "EL_DOT_MOST") - contracts.weighted(signs, rows))
-    offset = path.atom("offset", -(2**62) + 1, 2**62 - 1)
-    shift = path.choose(path.atom("shift", 1, 31))
-    position = [path.atom(f"p{i}", -(2**15), 2**15 - 1) for i in range(3)]
-    total = contracts.weighted(rows, position) + offset
-    path.assume(total + 2 ** (31 + shift))
-    path.assume(2 ** (31 + shift) - 1 - total)
-    TOTALS[id(path)] = total
-    transform = machine.struct("el_transform", shift=shift)
-    machine.put(transform.content["rows"].content[0], rows)
-    machine.put(transform.content["offsets"].content[0], offset)
-    return [Pointer([transform]), machine.exactly("uint32_t", 0), machine.array("int16_t", position)]
+    magnitudes = Poly.of(0)
+    for i, (h, p) in enumerate(zip(high, position, strict=True)):
+        magnitude = path.atom(f"|high{i}|", 0, 2**16)
+        for bound in (magnitude - h, magnitude + h, magnitude * 2**15 - h * p, magnitude * 2**15 + h * p):
+            path.assume(bound)
+        magnitudes += magnitude
+    path.assume(constant_of(machine, "EL_ROW_MOST") + 3 * 2**14 - magnitudes * 2**15)
 
 
-TOTALS: dict[int, Poly] = {}
+TOTALS: dict[int, tuple[Poly, int]] = {}
 
 
 def form_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """floor(sum / 2^shift)."""
-    unit = 1 << machine.poly(arguments[0].cell, "shift").known
-    rest = TOTALS.pop(id(machine.path)) - result.poly * unit
+    total, unit = TOTALS.pop(id(machine.path))
+    rest = total - result.poly * unit
     machine.path.prove(rest, "not above the sum")
     machine.path.prove(unit - 1 - rest, "not below it")
 
 
-FORM = Subject(
-    TRANSFORM, "form_value", form_domain, form_check, ["form_value"], contracts={"el_dot_i32_i16": contracts.dot}
-)
+def form(core: str) -> Subject:
+    return Subject(VERTEX, "form_value", form_domain(core), form_check, ["form_value"], core=core)
+
+
+def rows_domain(machine: Machine) -> list[Any]:
+    """One row's elements and offset; the others are 0."""
+    path = machine.path
+    row = [path.atom("element", -(2**30), 2**30), Poly.of(0), Poly.of(0)]
+    offset = path.atom("offset", -(2**62) + 1, 2**62 - 1)
+    shift = path.choose(path.atom("shift", 1, 31))
+    rows = [machine.array("int32_t", each).cells for each in (row, [0] * 3, [0] * 3)]
+    of = ArrayType(machine.type_named("int32_t"), 3)
+    transform = machine.struct("el_transform")
+    numbers = machine.array("int64_t", [offset, 0, 0]), machine.exactly("unsigned", shift)
+    return [Pointer([transform]), Pointer([Cell(of, cells) for cells in rows]), *numbers]
+
+
+def rows_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """The row is what el_row's comment says."""
+    transform, path = arguments[0].cell, machine.path
+    element, offset = machine.poly(arguments[1].cells[0].content[0]), machine.poly(arguments[2].cells[0])
+    split, over = machine.poly(transform, "split").known, machine.poly(transform, "over").known
+    require(split == min(arguments[3].poly.known, 15) and split + over == arguments[3].poly.known, "where it is split")
+    row = transform.content["rows"].content[0]
+    high, low = machine.poly(row, "high", 0), machine.poly(row, "low", 0)
+    path.prove(element - high * (1 << split) - low, "the element", zero=True)
+    path.prove((1 << (split - 1)) - low, "low is short")
+    path.prove((1 << (split - 1)) + low, "low is short")
+    rest = machine.poly(row, "rest_high") * (1 << split) + machine.poly(row, "rest_low")
+    path.prove((1 << split) - 1 - machine.poly(row, "rest_low"), "the lower rest is short")
+    turns = path.floor(offset, 1 << split + over + 32)
+    whole = machine.poly(row, "whole") + turns * 2**32
+    path.prove(offset - whole * (1 << split + over) - rest, "the offset, modulo 2^32 of the whole", zero=True)
+
+
+FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M)}
+ROWS = Subject(VERTEX, "el_transform_set_rows", rows_domain, rows_check, core=ARMV6M)
 
 # --- where it lies ----------------------------------------------------------------------------------------------------
 
@@ -118,7 +193,7 @@ def outcode_check(machine: Machine, arguments: list[Any], result: Number) -> Non
         path.prove(limit + coordinate, "x, y >= -w << guard_shift")
 
 
-OUTCODE = Subject(TRANSFORM, "el_outcode", outcode_domain, outcode_check)
+OUTCODE = Subject(VERTEX, "el_outcode", outcode_domain, outcode_check)
 
 # --- onto the screen --------------------------------------------------------------------------------------------------
 
@@ -165,7 +240,7 @@ def snap_check(machine: Machine, arguments: list[Any], result: Number) -> None:
 
 
 SNAP = Subject(
-    TRANSFORM,
+    VERTEX,
     "snap",
     snap_domain,
     snap_check,
@@ -214,7 +289,7 @@ def snapped(machine: Machine, arguments: list[Any]) -> Number:
 
 def project(orthographic: bool) -> Subject:
     return Subject(
-        TRANSFORM,
+        VERTEX,
         "el_project",
         project_domain(orthographic),
         project_check,
@@ -412,7 +487,8 @@ PUT_BACK = Subject(CLIP, "el_clip_polygon", put_back_domain, put_back_check)
 
 
 SUBJECTS = {
-    "form_value": FORM,
+    **FORM,
+    "rows, armv6m": ROWS,
     "outcode": OUTCODE,
     "snap": SNAP,
     "project, perspective": project(False),
@@ -449,21 +525,29 @@ def test_a_side_plane() -> None:
 
 
 @EVERY_PRECISION
-@pytest.mark.parametrize("name", ["form_value", "outcode", "snap", "mix", "inside", "put back"])
+@pytest.mark.parametrize(
+    "name",
+    ["form_value", "form_value, armv6m", "outcode", "snap", "mix", "inside", "put back"],
+)
 def test_the_compiler_agrees(name: str, bits: int) -> None:
     subject = SUBJECTS[name]
-    Subject(subject.file, subject.function, subject.domain, modular=subject.modular).agree(bits, count=100)
+    Subject(subject.file, subject.function, subject.domain, modular=subject.modular, core=subject.core).agree(bits, 100)
 
 
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("form_value", TRANSFORM, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
-        ("form_value", TRANSFORM, "(32 - transform->shift)", "(31 - transform->shift)"),
-        ("outcode", TRANSFORM, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),
-        ("snap", TRANSFORM, "c * half + (w >> 1)", "c * half + (w >> 1) + 1"),
-        ("project, perspective", TRANSFORM, "rest > 0x7FFFU ? 0x7FFFU", "rest > 0x8000U ? 0x8000U"),
-        ("project, orthographic", TRANSFORM, "z > EL_DEPTH_MAX ? EL_DEPTH_MAX", "z > EL_DEPTH_MAX + 1 ? EL_DEPTH_MAX"),
+        ("form_value", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
+        ("form_value", VERTEX, "(32 - transform->shift)", "(31 - transform->shift)"),
+        ("form_value, armv6m", VERTEX, "(uint32_t)(low >> transform->split)", "((uint32_t)low >> transform->split)"),
+        ("form_value, armv6m", "geometry/transform.h", "EL_ROW_MOST = 0x70000000", "EL_ROW_MOST = 0x7FFFFFFF"),
+        ("rows, armv6m", VERTEX, "shift < 15U ? shift : 15U", "shift < 16U ? shift : 16U"),
+        ("rows, armv6m", VERTEX, "(1 << (split - 1U))) >> split", "(1 << (split - 1U)) + 1) >> split"),
+        ("rows, armv6m", VERTEX, "offsets[i], shift) >> split", "offsets[i], shift - 1U) >> split"),
+        ("outcode", VERTEX, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),
+        ("snap", VERTEX, "c * half + (w >> 1)", "c * half + (w >> 1) + 1"),
+        ("project, perspective", VERTEX, "rest > 0x7FFFU ? 0x7FFFU", "rest > 0x8000U ? 0x8000U"),
+        ("project, orthographic", VERTEX, "z > EL_DEPTH_MAX ? EL_DEPTH_MAX", "z > EL_DEPTH_MAX + 1 ? EL_DEPTH_MAX"),
         ("mix", CLIP, "+ (1LL << 30)) >> 31", "+ (1LL << 30) + 1) >> 31"),
         ("inside", CLIP, "side = (int64_t)v->w * (1", "side = v->w * (1"),
         ("inside", CLIP, "plane / 2 - 1]", "plane / 3]"),

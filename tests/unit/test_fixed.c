@@ -97,6 +97,13 @@ static void expect_products(const seeded *s, uint64_t a, int32_t b)
     if (el_product_i32((int32_t)low, (int32_t)other) != product) {
         fail_at(s, "%ld * %ld", (long)(int32_t)low, (long)(int32_t)other);
     }
+    const uint32_t upper = (uint32_t)((uint64_t)low * other >> 32);
+    if (upper - el_product_near_u32(low, other) >= EL_PRODUCT_ERROR) {
+        fail_at(s, "%lu * %lu / 2^32, nearly", (unsigned long)low, (unsigned long)other);
+    }
+    if (el_product_high_u16(low, other & 0xFFFF) != (uint32_t)((uint64_t)low * (other & 0xFFFF) >> 16)) {
+        fail_at(s, "%lu * %lu / 2^16", (unsigned long)low, (unsigned long)other & 0xFFFF);
+    }
     if (el_multiply_high_i32_u32((int32_t)low, other) != (int32_t)((int64_t)(int32_t)low * other >> 32)) {
         fail_at(s, "%ld * %lu / 2^32", (long)(int32_t)low, (unsigned long)other);
     }
@@ -119,40 +126,18 @@ static void test_products(void)
     }
 }
 
-static void expect_dot(const seeded *s, const int32_t a[3], const int16_t b[3])
+static void test_normalising(void)
 {
-    if (el_dot_i32_i16(a, b) != (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) {
-        fail_at(s, "(%ld, %ld, %ld) . (%d, %d, %d)", (long)a[0], (long)a[1], (long)a[2], b[0], b[1], b[2]);
-    }
-}
-
-static void test_sums_of_three_products(void)
-{
-    enum { END = (1 << 29) - 1 };
-    static const int32_t ends[] = {-END, -(1 << 14) - 1, -(1 << 14), 0, (1 << 14) - 1, 1 << 14, END};
-    static const int16_t factors[] = {-32768, -1, 0, 1, 32767};
-    seeded s = seeded_from(11);
-    for (unsigned i = 0; i < 7 * 7 * 5 * 5; i++) {
-        expect_dot(&s, (const int32_t[3]){ends[i % 7], ends[i / 7 % 7], ends[i % 7]},
-                   (const int16_t[3]){factors[i / 49 % 5], factors[i / 245], factors[i / 49 % 5]});
-    }
-    for (unsigned i = 0; i < 3 * 8; i++) { /* each sum at its end, in one element and in three */
-        static const int16_t sides[] = {-32768, 32767, -32767};
-        const int32_t most = i < 8 ? EL_DOT_MOST : EL_DOT_MOST / 3;
-        const int32_t a[3] = {(i & 1U) != 0 ? most : -most, i < 8 ? 0 : most, i < 8 ? 0 : -most};
-        const unsigned side = i / 2 % 2;
-        const unsigned second = (i & 4U) != 0 ? side : 2U;
-        const unsigned third = i < 16 ? side : 1U;
-        expect_dot(&s, a, (const int16_t[3]){sides[side], sides[second], sides[third]});
-    }
-    for (; s.round < PART_OF(100000); s.round++) {
-        int32_t a[3];
-        int16_t b[3];
-        for (unsigned i = 0; i < 3; i++) {
-            a[i] = (int32_t)any_signed_of_bits(&s, 29);
-            b[i] = (int16_t)any_signed_of_bits(&s, 15);
+    for (seeded s = seeded_from(11); s.round < PART_OF(100000); s.round++) {
+        const uint32_t first = 0x80000000U >> s.round % 32; /* alone, with all bits below it, with any */
+        const uint32_t below = (first - 1U) & (s.round / 32 % 3 == 0   ? 0U
+                                               : s.round / 32 % 3 == 1 ? ~0U
+                                                                       : (uint32_t)any_u64(&s));
+        uint32_t x = first | below;
+        const unsigned zeros = el_normalise(&x);
+        if (zeros != s.round % 32 || x != (first | below) << zeros) {
+            fail_at(&s, "%lx moved up by %u: %lx", (unsigned long)(first | below), zeros, (unsigned long)x);
         }
-        expect_dot(&s, a, b);
     }
 }
 
@@ -288,7 +273,7 @@ int main(void)
     RUN_TEST(test_bit_lengths);
     RUN_TEST(test_magnitudes_and_the_smaller_and_larger);
     RUN_TEST(test_products);
-    RUN_TEST(test_sums_of_three_products);
+    RUN_TEST(test_normalising);
     RUN_TEST(test_square_roots);
     RUN_TEST(test_scale_at_the_edges);
     RUN_TEST(test_scale_ties_go_up);

@@ -14,13 +14,11 @@ void tearDown(void)
 /* A transform that gives each position the clip coordinates that it is set to. */
 static void set_clip(el_transform *transform, int64_t x, int64_t y, int64_t d)
 {
-    transform->offsets[0] = x * 2;
-    transform->offsets[1] = y * 2;
-    transform->offsets[2] = d * 2;
-    transform->shift = 1;
+    static const int32_t elements[3][3] = {{0}};
+    el_transform_set_rows(transform, elements, (const int64_t[3]){x * 2, y * 2, d * 2}, 1);
 }
 
-/* One vertex and a series of them: what is in the view is `vertex`, the rest is left for later. */
+/* One vertex and a series of them: what is in the view is `vertex`, the rest has a side of it and is left for later. */
 static void expect_in_view(const el_transform *transform, const int16_t position[3], const el_screen_vertex *vertex)
 {
 #if EL_SMALL_CODE
@@ -31,7 +29,10 @@ static void expect_in_view(const el_transform *transform, const int16_t position
     el_transform_vertex_in_view(transform, position, &found[0]);
     el_transform_vertices(transform, positions, 2, &found[1]);
     for (unsigned i = 0; i < 3; i++) {
-        TEST_ASSERT_EQUAL(vertex->code == 0 ? 0 : (vertex->code & EL_CODE_OUTSIDE) | EL_CODE_LATER, found[i].code);
+        const unsigned sides = found[i].code & EL_CODE_OUTSIDE;
+        TEST_ASSERT_EQUAL(vertex->code == 0 ? 0 : sides | EL_CODE_LATER, found[i].code);
+        TEST_ASSERT_EQUAL(sides, sides & vertex->code);
+        TEST_ASSERT_EQUAL(vertex->code == 0, sides == 0);
         if (vertex->code == 0) {
             TEST_ASSERT_EQUAL(vertex->x, found[i].x);
             TEST_ASSERT_EQUAL(vertex->y, found[i].y);
@@ -74,14 +75,10 @@ static void expect_clip(const seeded *s, el_transform *transform, int64_t x, int
     expect_same(s, transform, origin);
 }
 
-/* near in Q16 as cameras have it, in a unit of its own: as el_transform_make does. */
+/* near in Q16 as cameras have it, in a unit of its own. */
 static void set_near(el_transform *transform, uint32_t near_q16, int unit_log2)
 {
-    transform->near_q32 = (uint64_t)near_q16 << (16 + unit_log2);
-    transform->near_shift = (int8_t)(el_bit_length_u64(transform->near_q32) - 32);
-    transform->near_bits = (uint32_t)(transform->near_shift >= 0 ? transform->near_q32 >> transform->near_shift
-                                                                 : transform->near_q32 << -transform->near_shift);
-    transform->near = (int32_t)((transform->near_q32 + 0xFFFFFFFF) >> 32);
+    el_transform_set_depth(transform, (uint64_t)near_q16 << (16 + unit_log2), transform->depth_scale);
 }
 
 static el_transform any_transform(seeded *s)
@@ -89,10 +86,10 @@ static el_transform any_transform(seeded *s)
     el_transform transform = {.far = INT32_MAX, .depth_shift = 12, .guard_shift = {0, 0}};
     transform.size[0] = (uint16_t)any_between(s, 1, EL_MAX_WIDTH);
     transform.size[1] = (uint16_t)any_between(s, 1, EL_MAX_HEIGHT);
-    const uint32_t near_q16 = 16 + (uint32_t)any_of_bits(s, 29);
-    set_near(&transform, near_q16, (int)any_between(s, 0, 30 - el_bit_length_u32(near_q16) + 16 - 1));
     /* EL_DEPTH_MAX * far / (far - near), far from 9/8 near to beyond all. */
     transform.depth_scale = (uint32_t)(EL_DEPTH_MAX << 12) + (uint32_t)any_of_bits(s, 31) % (EL_DEPTH_MAX << 15);
+    const uint32_t near_q16 = 16 + (uint32_t)any_of_bits(s, 29);
+    set_near(&transform, near_q16, (int)any_between(s, 0, 30 - el_bit_length_u32(near_q16) + 16 - 1));
     return transform;
 }
 
@@ -144,6 +141,7 @@ static void test_orthographic_projection(void)
         el_transform transform = any_transform(&s);
         transform.orthographic = 1;
         transform.constant_w = (int32_t)(1U << any_between(&s, 8, 30));
+        transform.depth_excess = 0;
         transform.depth_scale = (uint32_t)any_u64(&s);
         transform.depth_shift = (uint8_t)any_between(&s, 16, 46);
         transform.far = transform.near + (int32_t)any_of_bits(&s, 30);
@@ -154,7 +152,7 @@ static void test_orthographic_projection(void)
     }
 }
 
-/* What el_transform_make prepares: near with all of its bits, and vertices of every kind through it. */
+/* What el_transform_make prepares: vertices of every kind through it. */
 static void test_transforms_of_cameras(void)
 {
     static const el_mesh mesh = {.vertex_count = 1, .scale_log2 = -8, .radius = 32767};
@@ -172,10 +170,6 @@ static void test_transforms_of_cameras(void)
         if (visibility != EL_VISIBLE) {
             continue; /* too coarse for its field of view, or too near for it */
         }
-        const uint64_t near_q32 = transform.near_shift >= 0 ? (uint64_t)transform.near_bits << transform.near_shift
-                                                            : transform.near_bits >> -transform.near_shift;
-        TEST_ASSERT_EQUAL_HEX64(transform.near_q32, near_q32);
-        TEST_ASSERT_EQUAL_UINT32(1, transform.near_bits >> 31);
         for (unsigned i = 0; i < 20; i++) {
             const int16_t position[3] = {(int16_t)any_signed_of_bits(&s, 15), (int16_t)any_signed_of_bits(&s, 15),
                                          (int16_t)any_signed_of_bits(&s, 15)};

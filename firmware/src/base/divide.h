@@ -90,8 +90,8 @@ EL_INLINE uint32_t el_reciprocal_word(uint32_t d)
 EL_INLINE el_divisor el_divisor_make(uint32_t d)
 {
     el_divisor divisor;
-    divisor.shift = (uint8_t)__builtin_clz(d);
-    divisor.normalised = d << divisor.shift;
+    divisor.normalised = d;
+    divisor.shift = (uint8_t)el_normalise(&divisor.normalised);
     divisor.reciprocal = el_reciprocal_word(divisor.normalised);
     return divisor;
 }

@@ -21,6 +21,42 @@ static inline int el_bit_length_u32(uint32_t x)
     return x == 0 ? 0 : 32 - __builtin_clz(x);
 }
 
+/* Moves *x up until its top bit is set. Returns by how much. Pre: *x > 0. */
+EL_INLINE unsigned el_normalise(uint32_t *x)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* Without an instruction for it: half of the bits that are left at a time, rather than a call. */
+    uint32_t moved = *x;
+    unsigned zeros = 0;
+    if (moved >> 16 == 0) {
+        moved <<= 16;
+        zeros = 16;
+    }
+    if (moved >> 24 == 0) {
+        moved <<= 8;
+        zeros += 8;
+    }
+    if (moved >> 28 == 0) {
+        moved <<= 4;
+        zeros += 4;
+    }
+    if (moved >> 30 == 0) {
+        moved <<= 2;
+        zeros += 2;
+    }
+    if (moved >> 31 == 0) {
+        moved <<= 1;
+        zeros += 1;
+    }
+    *x = moved;
+    return zeros;
+#else
+    const unsigned zeros = (unsigned)__builtin_clz(*x);
+    *x <<= zeros;
+    return zeros;
+#endif
+}
+
 static inline int el_bit_length_u64(uint64_t x)
 {
     return x == 0 ? 0 : 64 - __builtin_clzll(x);
@@ -110,6 +146,29 @@ static inline uint32_t el_product_high_u32(uint32_t a, uint32_t b)
     return (uint32_t)(el_product_u64(a, b) >> 32);
 }
 
+/* a * b / 2^32, too low by less than EL_PRODUCT_ERROR: in halves without the lower ones' product and the others' fractions. */
+enum { EL_PRODUCT_ERROR = 3 };
+static inline uint32_t el_product_near_u32(uint32_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    const uint32_t a_high = a >> 16;
+    const uint32_t b_high = b >> 16;
+    return a_high * b_high + ((a_high * (b & 0xFFFFU)) >> 16) + (((a & 0xFFFFU) * b_high) >> 16);
+#else
+    return (uint32_t)(((uint64_t)a * b) >> 32);
+#endif
+}
+
+/* floor(a * b / 2^16), b < 2^16. */
+static inline uint32_t el_product_high_u16(uint32_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return (a >> 16) * b + (((a & 0xFFFFU) * b) >> 16);
+#else
+    return (uint32_t)(((uint64_t)a * (b << 16)) >> 32);
+#endif
+}
+
 /* a * b, b < 2^16. */
 static inline uint64_t el_product_u32_u16(uint32_t a, uint32_t b)
 {
@@ -146,34 +205,6 @@ static inline int32_t el_product_down_11(int32_t a, int32_t b)
     return a * (b >> 16) * (1 << 5) + ((a * (b & 0xFFFF)) >> 11);
 #else
     return (int32_t)(((int64_t)a * b) >> 11);
-#endif
-}
-
-#if defined(EL_PRODUCTS_IN_HALVES)
-static inline void el_add_halves(int32_t a, int32_t b, uint32_t *high, uint32_t *low)
-{
-    const int32_t rest = (int32_t)((uint32_t)a << 17) >> 17;
-    *high += (uint32_t)((a - rest) >> 15) * (uint32_t)b;
-    *low += (uint32_t)rest * (uint32_t)b;
-}
-#endif
-
-/* The sum of three products a[i] * b[i]. Pre: |a[0]| + |a[1]| + |a[2]| <= EL_DOT_MOST. */
-enum { EL_DOT_MOST = 0x7FFF0000 };
-static inline int64_t el_dot_i32_i16(const int32_t a[3], const int16_t b[3])
-{
-#if defined(EL_PRODUCTS_IN_HALVES)
-    /* a = 2^15 high + low, |low| at most 2^14, and |high| 2^15 at most |a| + 2^14: the sum of the low products is at most
-     * 3 * 2^29, that of the high ones below 2^31. */
-    uint32_t high = 0;
-    uint32_t low = 0;
-    el_add_halves(a[0], b[0], &high, &low);
-    el_add_halves(a[1], b[1], &high, &low);
-    el_add_halves(a[2], b[2], &high, &low);
-    const uint32_t upper = (uint32_t)((int32_t)high >> 17);
-    return (int64_t)((uint64_t)upper << 32 | high << 15) + (int32_t)low;
-#else
-    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 #endif
 }
 

@@ -124,6 +124,9 @@
 #define EL_INLINE_HERE static inline
 #endif
 
+/* Functions that are called rarely, from where speed counts: never merged with their callers. */
+#define EL_SELDOM __attribute__((noinline, cold))
+
 /* Functions that are compiled anew into each caller, with what is known there, where speed counts. */
 #if EL_SMALL_CODE
 #define EL_SPECIALISED inline

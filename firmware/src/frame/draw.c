@@ -237,6 +237,10 @@ static void draw_triangle(el_drawing *d, uint32_t index)
     unsigned codes = v[0]->code | v[1]->code | v[2]->code;
     if (!EL_SMALL_CODE && (codes & EL_CODE_LATER) != 0) {
         codes = transform_later(d, vertices, v);
+        if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
+            d->verdicts[EL_VERDICT_OUTSIDE]++;
+            return;
+        }
     }
     if ((codes & EL_CODE_CLIP) != 0) {
         clip_triangle(d, (uint16_t)index, (uint8_t)codes);

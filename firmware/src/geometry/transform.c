@@ -1,3 +1,6 @@
+/* What is done once per frame and once per draw: from a camera to a view, from a mesh's pose to the rows of its draw.
+ *
+ * Everything is chosen from the mesh's bounding sphere, so that what is done per vertex (vertex.c) keeps its widths. */
 #include "geometry/transform.h"
 
 #include <stdbool.h>
@@ -5,8 +8,6 @@
 
 #include "base/fixed.h"
 #include "geometry/cull.h"
-
-_Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
 
 /* Position of models and cameras, Q16.16: +-16384 units. */
 #define MAX_POSITION_Q16 (1 << 30)
@@ -292,6 +293,7 @@ static void make_orthographic(el_transform *transform, const el_view *view, int 
     }
     transform->depth_scale = (uint32_t)scale;
     transform->depth_shift = (uint8_t)shift;
+    transform->depth_excess = 0;
 }
 
 int el_transform_make(el_transform *transform, const el_view *view, const el_mesh *mesh, const el_pose *pose)
@@ -332,16 +334,18 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
         }
     }
     const int drop = el_max_i32(0, el_min_i32(30, el_bit_length_u64(all) - EL_ROW_BITS));
-    transform->shift = (uint8_t)(31 - drop);
+    const int shift = 31 - drop;
+    int32_t elements[3][3];
+    int64_t offsets[3];
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {
-            transform->rows[i][j] = (int32_t)el_shift_i64(forms[i].exact[j], drop);
+            elements[i][j] = (int32_t)el_shift_i64(forms[i].exact[j], drop);
         }
         /* Rounding of the shifted sum is made here, once. */
-        const int64_t half = (int64_t)1 << (transform->shift - 1);
-        transform->offsets[i] =
-            scale_by(forms[i].at[OFFSET], factors[i], FORM_BITS - unit_log2 - transform->shift) + half;
+        const int64_t half = (int64_t)1 << (shift - 1);
+        offsets[i] = scale_by(forms[i].at[OFFSET], factors[i], FORM_BITS - unit_log2 - shift) + half;
     }
+    el_transform_set_rows(transform, (const int32_t(*)[3])elements, offsets, (unsigned)shift);
 
     transform->orthographic = is_orthographic(view);
     transform->mirrored = is_reflection(view->axes_q30) != is_reflection(pose->rotation_q30);
@@ -351,229 +355,11 @@ int el_transform_make(el_transform *transform, const el_view *view, const el_mes
     /* The sphere reaches beyond the near plane, so near < 2^30 in the draw's unit. */
     const int64_t near_q32 = el_shift_i64(view->near_q16, 16 - unit_log2 - 32);
     const int64_t far_q32 = el_shift_i64(view->far_q16, 16 - unit_log2 - 32);
-    transform->near_q32 = (uint64_t)near_q32;
-#if !EL_SMALL_CODE
-    transform->near_shift = (int8_t)(el_bit_length_u64((uint64_t)near_q32) - 32);
-    transform->near_bits = (uint32_t)(transform->near_shift >= 0 ? (uint64_t)near_q32 >> transform->near_shift
-                                                                 : (uint64_t)near_q32 << -transform->near_shift);
-#endif
-    transform->near = (int32_t)((near_q32 + 0xFFFFFFFFLL) >> 32);
+    el_transform_set_depth(transform, (uint64_t)near_q32, view->depth_scale_q12);
     transform->far = far_q32 >= (int64_t)INT32_MAX << 32 ? INT32_MAX : (int32_t)((far_q32 + 0xFFFFFFFFLL) >> 32);
     transform->constant_w = 0;
-    transform->depth_scale = view->depth_scale_q12;
-    transform->depth_shift = 12;
     if (is_orthographic(view)) {
         make_orthographic(transform, view, unit_log2, w_log2);
     }
     return EL_VISIBLE;
 }
-
-static inline int32_t form_value(const el_transform *transform, unsigned i, const int16_t p[3])
-{
-    /* Three products below 2^46 and an offset below 2^62. */
-    const uint64_t sum = (uint64_t)(transform->offsets[i] + el_dot_i32_i16(transform->rows[i], p));
-    /* The lower word of sum >> shift, 1 <= shift <= 31. */
-    return (int32_t)((uint32_t)(sum >> 32) << (32 - transform->shift) | (uint32_t)sum >> transform->shift);
-}
-
-static EL_SPECIALISED el_clip_vertex position_of(const el_transform *transform, const int16_t position[3])
-{
-    el_clip_vertex vertex;
-    vertex.x = form_value(transform, 0, position);
-    vertex.y = form_value(transform, 1, position);
-    vertex.d = form_value(transform, 2, position);
-    vertex.w = el_transform_is_orthographic(transform) ? transform->constant_w : vertex.d;
-    return vertex;
-}
-
-el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
-{
-    return position_of(transform, position);
-}
-
-/* The sides of the view that a vertex is beyond, whatever it and w are: ~w is -w - 1. */
-static inline unsigned outside_code(const el_transform *transform, const el_clip_vertex *vertex)
-{
-    const int32_t w = vertex->w;
-    unsigned code = vertex->x <= ~w ? EL_CODE_LEFT : 0U;
-    code |= vertex->x > w ? EL_CODE_RIGHT : 0U;
-    code |= vertex->y <= ~w ? EL_CODE_BELOW : 0U;
-    code |= vertex->y > w ? EL_CODE_ABOVE : 0U;
-    code |= vertex->d < transform->near ? EL_CODE_NEAR : 0U;
-    code |= vertex->d > transform->far ? EL_CODE_FAR : 0U;
-    return code;
-}
-
-/* Of one coordinate: v / 2^shift rounded down compares with a whole number as v does with that number times 2^shift. */
-static bool is_beyond_guard(int32_t v, int32_t w, unsigned shift)
-{
-    return (v <= ~w && v >> shift <= ~w) || (v > w && (v - 1) >> shift >= w);
-}
-
-uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex)
-{
-    const unsigned code = outside_code(transform, vertex);
-    const bool guard = is_beyond_guard(vertex->x, vertex->w, transform->guard_shift[0]) ||
-                       is_beyond_guard(vertex->y, vertex->w, transform->guard_shift[1]);
-    return (uint8_t)(code | (guard ? EL_CODE_GUARD : 0U));
-}
-
-/* middle + half * c / w in 1/EL_SUBPIXELS px, to the nearest, ties up.
- * |c| <= w << guard_shift keeps the quotient within EL_GUARD_SUB; |c| * half < 2^30 * 2^18. */
-static el_coordinate snap(int64_t c, uint16_t size, uint32_t w, const el_divisor *divisor)
-{
-    const int32_t half = size * (EL_SUBPIXELS / 2);
-    const int32_t offset = el_divide_floor_i64(c * half + (w >> 1), divisor);
-    return (el_coordinate)(half + offset);
-}
-
-static uint16_t depth_of(const el_transform *transform, const el_clip_vertex *vertex, uint32_t w,
-                         const el_divisor *divisor)
-{
-    uint32_t z;
-    if (el_transform_is_orthographic(transform)) {
-        const uint64_t distance = (uint64_t)(vertex->d - transform->near);
-        const uint64_t product = distance * transform->depth_scale;
-        z = (uint32_t)((product + ((1ULL << transform->depth_shift) >> 1)) >> transform->depth_shift);
-    } else {
-        /* depth = scale * (1 - near / w) */
-        const uint32_t ratio_q32 =
-            transform->near_q32 < (uint64_t)w << 32 ? el_divide_u64(transform->near_q32, divisor) : 0xFFFFFFFFU;
-        const uint64_t product = (uint64_t)transform->depth_scale * ~ratio_q32;
-        z = (uint32_t)((product + (1ULL << 43)) >> 44);
-    }
-    return (uint16_t)(z > EL_DEPTH_MAX ? EL_DEPTH_MAX : z);
-}
-
-/* 1/w = (2^32 + reciprocal) * 2^(shift - 64): the upper 16 bits of the sum, rounded, its first bit included. */
-static void keep_reciprocal(el_screen_vertex *screen, const el_divisor *divisor)
-{
-    const uint32_t rest = ((divisor->reciprocal >> 16) + 1U) >> 1;
-    screen->w = (uint16_t)(0x8000U + (rest > 0x7FFFU ? 0x7FFFU : rest));
-    screen->w_shift = (uint8_t)(31 - divisor->shift);
-}
-
-void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
-{
-    const uint32_t w = (uint32_t)vertex->w;
-    const el_divisor divisor = el_divisor_make(w);
-    screen->x = snap(vertex->x, transform->size[0], w, &divisor);
-    screen->y = snap(-(int64_t)vertex->y, transform->size[1], w, &divisor);
-    screen->z = depth_of(transform, vertex, w, &divisor);
-    keep_reciprocal(screen, &divisor);
-}
-
-#if !EL_SMALL_CODE
-/* snap without the last bits, for what is in the view. c + w is in [0, 2w], so with w moved up to 31 bits, and c + w alike,
- * no bit is lost, and their ratio with 30 bits of fraction is a product with the reciprocal, too low by less than
- * EL_RECIPROCAL_ERROR + 1 units, 19. Times `half` it is the result, too low by less than 20 half units. False where that
- * might matter: below a tie. */
-static inline bool snap_fast(uint32_t from_the_side, uint16_t size, uint32_t reciprocal, el_coordinate *result)
-{
-    const uint32_t half = size * (uint32_t)(EL_SUBPIXELS / 2);
-    const uint32_t ratio = el_product_high_u32(from_the_side, reciprocal);
-    const uint64_t scaled =
-        (EL_SUBPIXEL_BITS == 4 ? el_product_u32_u16(ratio, half) : el_product_u64(ratio, half)) + (1U << 29);
-    *result = (el_coordinate)((uint32_t)(scaled >> 30));
-    return (uint32_t)scaled << 2 < 0U - half * (20U << 2);
-}
-
-/* depth_of without the last bits: near / w from 32 bits of near, with at least 31 bits of fraction, too low by less than
- * EL_RECIPROCAL_ERROR + 1 units; so scale * near / w, Q12 + 31, by less than 19 * 2^32, 19 of the 2^11 units that are
- * kept, and two for their rounding; and depth_of's own rounding of the ratio is less than one of them. */
-static inline bool depth_fast(const el_transform *transform, unsigned w_shift, uint32_t reciprocal, uint16_t *result)
-{
-    enum { OFF = 24 };
-    const uint32_t ratio = el_product_high_u32(transform->near_bits, reciprocal);
-    const int excess = 32 - (int)w_shift - transform->near_shift; /* bits of fraction beyond 31, 0 and more */
-    if (excess < 0 || excess > 31) {
-        return false;
-    }
-    const uint32_t high = el_product_high_u32(transform->depth_scale, ratio) >> excess;
-    const uint32_t z = (transform->depth_scale >> 1) - high + (1U << 10);
-    const uint32_t fraction = z & 2047U;
-    if (fraction < OFF || fraction > 2047U - OFF || z >> 11 > EL_DEPTH_MAX) {
-        return false;
-    }
-    *result = (uint16_t)(z >> 11);
-    return true;
-}
-
-/* keep_reciprocal from the reciprocal's upper bits. False where that might matter. */
-static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shift, uint32_t reciprocal)
-{
-    const uint32_t rounded = ((reciprocal >> 15) + 1U) >> 1;
-    screen->w = (uint16_t)(rounded > 0xFFFFU ? 0xFFFFU : rounded);
-    screen->w_shift = (uint8_t)(31U - w_shift);
-    return ((reciprocal + 0x8000U) & 0xFFFFU) < 0x10000U - EL_RECIPROCAL_ERROR;
-}
-
-/* el_project for what is in the view, which most vertices are: without the last bits, and once more where these might
- * matter. */
-static inline void project_inside(const el_transform *transform, const el_clip_vertex *vertex, el_screen_vertex *screen)
-{
-    const uint32_t w = (uint32_t)vertex->w;
-    const unsigned shift = (unsigned)__builtin_clz(w); /* w < 2^31: 1 at least */
-    const uint32_t reciprocal = el_reciprocal_near(w << shift);
-    const uint32_t x = (w + (uint32_t)vertex->x) << (shift - 1U);
-    const uint32_t y = (w - (uint32_t)vertex->y) << (shift - 1U);
-    if (!snap_fast(x, transform->size[0], reciprocal, &screen->x) ||
-        !snap_fast(y, transform->size[1], reciprocal, &screen->y) || !keep_reciprocal_fast(screen, shift, reciprocal)) {
-        el_project(transform, vertex, screen);
-    } else if (el_transform_is_orthographic(transform) || !depth_fast(transform, shift, reciprocal, &screen->z)) {
-        const el_divisor divisor = el_divisor_make(w);
-        screen->z = depth_of(transform, vertex, w, &divisor);
-    }
-}
-
-/* Most vertices are in the view, between near and far: three comparisons. */
-static inline bool is_in_view(const el_transform *transform, const el_clip_vertex *vertex)
-{
-    const uint32_t w = (uint32_t)vertex->w;
-    const uint32_t near = (uint32_t)transform->near;
-    return (uint32_t)vertex->d - near <= (uint32_t)transform->far - near && (uint32_t)vertex->x + w <= 2U * w &&
-           (uint32_t)vertex->y + w <= 2U * w;
-}
-#endif
-
-void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
-{
-    const el_clip_vertex vertex = position_of(transform, position);
-#if !EL_SMALL_CODE
-    if (is_in_view(transform, &vertex)) {
-        screen->code = 0;
-        project_inside(transform, &vertex, screen);
-        return;
-    }
-#endif
-    screen->code = el_outcode(transform, &vertex);
-    if ((screen->code & EL_CODE_CLIP) == 0) {
-        el_project(transform, &vertex, screen);
-    }
-}
-
-#if !EL_SMALL_CODE
-static inline void transform_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
-{
-    const el_clip_vertex vertex = position_of(transform, position);
-    if (is_in_view(transform, &vertex)) {
-        screen->code = 0;
-        project_inside(transform, &vertex, screen);
-    } else {
-        screen->code = (uint8_t)(outside_code(transform, &vertex) | EL_CODE_LATER);
-    }
-}
-
-void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
-{
-    transform_in_view(transform, position, screen);
-}
-
-void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
-                           el_screen_vertex *screen)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        transform_in_view(transform, positions[i], &screen[i]);
-    }
-}
-#endif

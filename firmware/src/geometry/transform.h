@@ -53,32 +53,51 @@ enum {
     EL_CODE_NEAR = 16,
     EL_CODE_FAR = 32,
     EL_CODE_GUARD = 64,  /* beyond the guard band */
-    EL_CODE_LATER = 128, /* neither compared with the guard band nor projected yet */
+    EL_CODE_LATER = 128, /* beyond a side of the view; the others are not asked yet, nor is it projected */
     EL_CODE_OUTSIDE = EL_CODE_LEFT | EL_CODE_RIGHT | EL_CODE_BELOW | EL_CODE_ABOVE | EL_CODE_NEAR | EL_CODE_FAR,
     EL_CODE_CLIP = EL_CODE_NEAR | EL_CODE_FAR | EL_CODE_GUARD /* cannot be projected: its triangles are cut first */
 };
 
-/* Of a row's elements: what a core without long products adds up in 32 bits. */
-enum { EL_ROW_BITS = 29 };
+/* Of a row's elements, and the most that their magnitudes add up to: what a core without long products adds up in 32 bits. */
+enum { EL_ROW_BITS = 29, EL_ROW_MOST = 0x70000000 };
+
+/* A clip coordinate as a linear form on positions: (offset + the sum of element times position) / 2^shift, rounded down.
+ * |offset| < 2^62. */
+typedef struct el_row {
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* Products of 32 bits: element = high * 2^split + low, |low| <= 2^(split - 1);
+     * offset = whole * 2^shift + rest_high * 2^split + rest_low, 0 <= rest_low < 2^split, shift = split + over. */
+    uint16_t rest_high;
+    uint16_t rest_low;
+    uint32_t whole;
+    int32_t high[3];
+    int32_t low[3];
+#else
+    int64_t offset;
+    int32_t elements[3];
+#endif
+} el_row;
 
 typedef struct el_transform {
+#if defined(EL_PRODUCTS_IN_HALVES)
+    uint8_t split; /* 1..15 */
+    uint8_t over;  /* 0..16, and 0 where split is not 15 */
+#else
     uint8_t shift; /* 1..31 */
+#endif
     uint8_t orthographic;
     uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
     uint8_t guard_shift[2];
     uint8_t depth_shift;
-    int8_t near_shift;
+    uint8_t depth_excess; /* unless EL_SMALL_CODE: see depth_near; 0 where that is not used */
     uint16_t size[2];
-    int32_t rows[3][3];   /* x, y, d per position unit, times 2^shift; the magnitudes of a row add up to
-                             EL_DOT_MOST at most */
-    int64_t offsets[3];   /* |offset| < 2^62 */
+    el_row rows[3];       /* x, y, d */
     int32_t near;         /* in the draw's unit: 1 <= near < 2^30 */
     int32_t far;          /* likewise, or INT32_MAX */
     int32_t constant_w;   /* orthographic: w of every vertex */
-    uint32_t near_bits;   /* unless EL_SMALL_CODE: near_q32 = near_bits << near_shift, -11..30, the top bit set; cameras
-                           give near 31 bits */
-    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
+    uint32_t depth_near;  /* unless EL_SMALL_CODE, perspective: depth_scale * near in Q14, times 2^depth_excess */
     uint32_t depth_scale; /* perspective: Q12; orthographic: per unit of d, times 2^depth_shift */
+    uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
 } el_transform;
 
 static inline bool el_transform_is_orthographic(const el_transform *transform)
@@ -106,13 +125,23 @@ typedef struct el_screen_vertex {
     uint8_t w_shift; /* 0..31 */
 } el_screen_vertex;
 
+/* The rows of x, y and d. 1 <= shift <= 31; the magnitudes of a row's elements add up to EL_ROW_MOST at most. */
+void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
+                           unsigned shift);
+
+/* In perspective: near, 2^20 <= near_q32 < 2^62 with 31 bits or fewer between its first and its last, and the scale of
+ * depth. Where far is at least twice as far as near, and near not much less than the draw's unit, vertices in the view
+ * take a short way to their depth. */
+void el_transform_set_depth(el_transform *transform, uint64_t near_q32, uint32_t scale_q12);
+
 /* The clip coordinates of a mesh position. */
 el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3]);
 
 /* All of what follows for one mesh position. */
 void el_transform_vertex(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
-/* The same, but a vertex outside the view is not projected: few of its triangles will ask for it. */
+/* The same, but a vertex outside the view gets EL_CODE_LATER and one side that it is beyond, since few of its triangles
+ * will ask for more: where they do, el_transform_vertex has it. */
 void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
 /* That for `count` of them. */
