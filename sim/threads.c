@@ -25,6 +25,7 @@ struct el_threads {
     el_job *job; /* NULL: end */
     void *argument;
     unsigned jobs;    /* started so far */
+    unsigned taken;   /* numbers of the last one */
     unsigned at_work; /* threads that are not done with the last one */
     pthread_mutex_t mutex;
     pthread_cond_t more;
@@ -73,6 +74,7 @@ static void start(void *context, el_job *job, void *argument)
     el_threads *const threads = context;
     threads->job = job;
     threads->argument = argument;
+    threads->taken = 0;
     threads->at_work = threads->running;
     (void)pthread_mutex_lock(&threads->mutex);
     (void)__atomic_add_fetch(&threads->jobs, 1, __ATOMIC_RELEASE);
@@ -80,6 +82,12 @@ static void start(void *context, el_job *job, void *argument)
         (void)pthread_cond_broadcast(&threads->more);
     }
     (void)pthread_mutex_unlock(&threads->mutex);
+}
+
+static unsigned take(void *context)
+{
+    el_threads *const threads = context;
+    return __atomic_fetch_add(&threads->taken, 1, __ATOMIC_RELAXED);
 }
 
 static void wait_for_all(void *context)
@@ -103,8 +111,8 @@ el_threads *el_threads_open(unsigned count)
         el_report("no memory for %u threads", count);
         return NULL;
     }
-    threads->workers =
-        (el_workers){.context = threads, .count = count, .start = start, .wait = wait_for_all, .pause = pause_thread};
+    threads->workers = (el_workers){
+        .context = threads, .count = count, .start = start, .take = take, .wait = wait_for_all, .pause = pause_thread};
     (void)pthread_mutex_init(&threads->mutex, NULL);
     (void)pthread_cond_init(&threads->more, NULL);
     for (unsigned i = 1; i < count; i++) {

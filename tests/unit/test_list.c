@@ -43,7 +43,8 @@ static el_draw_state draw_of(unsigned mesh)
 static el_record *append(unsigned mesh, el_record_kind kind, int32_t row, int32_t from, uint16_t index)
 {
     const el_draw_state draw = draw_of(mesh);
-    el_record *const record = el_list_append(&list, &draw, kind, row > from ? row : from, (row > from ? row : from) + 1);
+    el_record *const record =
+        el_list_append(&list, &draw, kind, row > from ? row : from, (row > from ? row : from) + 1);
     if (record != NULL) {
         const el_coordinate y = (el_coordinate)(row * EL_SUBPIXELS + EL_SUBPIXELS / 2);
         record->index = index;

@@ -332,7 +332,8 @@ void el_bands_flush(el_renderer *renderer)
 void el_bands_finish(el_renderer *renderer)
 {
 #if EL_WITH_WORKERS
-    if (renderer->workers > 1) {
+    /* An open band is the pass' only one, and in the caller's core's buffer. */
+    if (renderer->workers > 1 && !renderer->painter.band_is_open) {
         el_workers_draw_pass(renderer);
     } else {
         draw_pass(renderer, true);

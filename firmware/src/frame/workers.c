@@ -1,9 +1,9 @@
 /* The bands of a pass, drawn by several cores.
  *
- * Each core draws groups of EL_GROUP_BANDS neighbouring bands in turn, core 0 (the caller's) the first, core 1 the second
- * and so on, with its own buffers and its own memory for what it carries within a group. What a band needs is in the bins
- * of its group (raster/list.h), so cores wait for each other only where a buffer is not free. All sinks are called by the
- * caller's core, in the bands' order, whenever it has drawn a band of its own or has nothing to draw.
+ * A core that has nothing to draw takes the next group of EL_GROUP_BANDS neighbouring bands, with its own buffers and its
+ * own memory for what it carries within a group. What a band needs is in the bins of its group (raster/list.h), so cores
+ * wait for each other only where a buffer is not free. All sinks are called by the caller's core, in the bands' order,
+ * whenever it has drawn a band of its own or has nothing to draw.
  *
  * The cores tell each other two counts, each with one writer: how many of a core's bands are complete, and how many of
  * those the sinks have got. The lowest band that is not complete can always be drawn: its buffer's last contents are
@@ -27,22 +27,14 @@ static void store(uint16_t *count, uint16_t value)
     __atomic_store_n(count, value, __ATOMIC_RELEASE);
 }
 
-/* The core that draws `band`. */
-static unsigned owner_of(const el_renderer *renderer, uint16_t band)
-{
-    const unsigned group = band / EL_GROUP_BANDS - renderer->pass_begin / (unsigned)EL_GROUP_BANDS;
-    return group % renderer->workers;
-}
-
 /* Whether the next band's buffer has been handed over, if it was drawn into in this pass, and the sinks have released it. */
 static bool can_draw(const el_painter *painter)
 {
     return load(&painter->handed) + 1U >= painter->drawn && el_band_is_free(&painter->bands[painter->current]);
 }
 
-static void draw_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
+static void draw_band(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
-    const bool goes_on = (band + 1) % EL_GROUP_BANDS != 0 && band + 1 < renderer->pass_end;
     el_painter_draw(painter, renderer, band, goes_on);
     el_debug_finish_band(renderer, painter);
     painter->current ^= 1U;
@@ -50,49 +42,69 @@ static void draw_band(el_painter *painter, const el_renderer *renderer, uint16_t
     store(&painter->drawn, (uint16_t)(painter->drawn + 1U));
 }
 
-static void draw_groups(void *argument, unsigned worker)
+typedef struct pass_job {
+    el_renderer *renderer;
+    uint16_t next; /* the first band that the sinks have not got; the caller's core's */
+} pass_job;
+
+/* Hands over the bands from job->next on that are complete. */
+static void hand_over_complete(pass_job *job)
 {
-    el_renderer *const renderer = argument;
-    const el_workers *const workers = renderer->config.workers;
-    el_painter *const painter = el_renderer_painter(renderer, worker);
-    for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
-        if (owner_of(renderer, band) != worker) {
+    el_renderer *const renderer = job->renderer;
+    for (unsigned i = 0; i < renderer->workers && job->next < renderer->pass_end;) {
+        el_painter *const painter = el_renderer_painter(renderer, i);
+        el_band *const band = &painter->bands[(painter->first + painter->handed) & 1U];
+        if (painter->handed == load(&painter->drawn) || band->y != job->next * renderer->config.band_lines) {
+            i++;
             continue;
         }
-        while (!can_draw(painter)) {
-            workers->pause(workers->context);
-        }
-        draw_band(painter, renderer, band);
+        (void)el_quiet_leaves_out(renderer, job->next, false); /* each is drawn */
+        el_bands_hand_over(renderer, band);
+        store(&painter->handed, (uint16_t)(painter->handed + 1U));
+        job->next++;
+        i = 0;
     }
-}
-
-/* Hands over the bands from `band` on that are complete. Returns the first that is not. */
-static uint16_t hand_over_complete(el_renderer *renderer, uint16_t band)
-{
-    while (band < renderer->pass_end) {
-        el_painter *const painter = el_renderer_painter(renderer, owner_of(renderer, band));
-        const uint16_t handed = painter->handed;
-        if (handed == load(&painter->drawn)) {
-            break;
-        }
-        (void)el_quiet_leaves_out(renderer, band, false); /* each is drawn */
-        el_bands_hand_over(renderer, &painter->bands[(painter->first + handed) & 1U]);
-        store(&painter->handed, (uint16_t)(handed + 1U));
-        band++;
-    }
-    return band;
 }
 
 /* Nothing can be handed over or drawn: lets whoever is waited for go on. A sink sleeps until its interrupt comes only where
  * it has a band, so that one comes. */
-static void wait_for_others(el_renderer *renderer)
+static void wait_for_others(pass_job *job)
 {
-    const el_workers *const workers = renderer->config.workers;
+    el_renderer *const renderer = job->renderer;
     for (unsigned i = 0; i < renderer->workers * 2U; i++) {
-        const el_band *const band = &el_renderer_painter(renderer, i / 2)->bands[i % 2];
-        el_bands_wait_for_sinks(renderer, band);
+        el_bands_wait_for_sinks(renderer, &el_renderer_painter(renderer, i / 2)->bands[i % 2]);
     }
-    workers->pause(workers->context);
+    renderer->config.workers->pause(renderer->config.workers->context);
+    hand_over_complete(job);
+}
+
+static void draw_groups(void *argument, unsigned worker)
+{
+    pass_job *const job = argument;
+    el_renderer *const renderer = job->renderer;
+    const el_workers *const workers = renderer->config.workers;
+    el_painter *const painter = el_renderer_painter(renderer, worker);
+    for (;;) {
+        const uint32_t group = renderer->pass_begin / (uint32_t)EL_GROUP_BANDS + workers->take(workers->context);
+        const int32_t begin = el_max_i32((int32_t)group * EL_GROUP_BANDS, renderer->pass_begin);
+        const int32_t end = el_min_i32((int32_t)(group + 1U) * EL_GROUP_BANDS, renderer->pass_end);
+        if (begin >= renderer->pass_end) {
+            break;
+        }
+        for (int32_t band = begin; band < end; band++) {
+            while (!can_draw(painter)) {
+                if (worker == 0) {
+                    wait_for_others(job);
+                } else {
+                    workers->pause(workers->context);
+                }
+            }
+            draw_band(painter, renderer, (uint16_t)band, band + 1 < end);
+            if (worker == 0) {
+                hand_over_complete(job);
+            }
+        }
+    }
 }
 
 static void add_stats(el_stats *sum, const el_stats *part)
@@ -129,27 +141,12 @@ static void begin(el_renderer *renderer)
 void el_workers_draw_pass(el_renderer *renderer)
 {
     const el_workers *const workers = renderer->config.workers;
-    el_painter *const painter = &renderer->painter;
-    uint16_t next = renderer->pass_begin; /* the first band that the sinks have not got */
+    pass_job job = {.renderer = renderer, .next = renderer->pass_begin};
     begin(renderer);
-    workers->start(workers->context, draw_groups, renderer);
-    for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
-        if (owner_of(renderer, band) != 0) {
-            continue;
-        }
-        next = hand_over_complete(renderer, next);
-        while (!can_draw(painter)) {
-            wait_for_others(renderer);
-            next = hand_over_complete(renderer, next);
-        }
-        draw_band(painter, renderer, band);
-    }
-    for (;;) {
-        next = hand_over_complete(renderer, next);
-        if (next == renderer->pass_end) {
-            break;
-        }
-        wait_for_others(renderer);
+    workers->start(workers->context, draw_groups, &job);
+    draw_groups(&job, 0);
+    while (job.next < renderer->pass_end) {
+        wait_for_others(&job);
     }
     workers->wait(workers->context);
 

@@ -2,7 +2,8 @@
  *
  * A board with another core implements el_workers and names it in el_config.workers. Then vertices are transformed and
  * bands are drawn by all cores at the same time, with the same pixels; everything else, and every call of a sink, stays on
- * the core that calls el_draw and el_frame_next. tests and simulator have an implementation with threads (sim/threads.h). */
+ * the core that calls el_draw and el_frame_next. The simulator has an implementation with threads
+ * (sim/threads.h). */
 #ifndef EL_FRAME_WORKERS_H
 #define EL_FRAME_WORKERS_H
 
@@ -21,6 +22,8 @@ typedef struct el_workers {
     /* Has each other core call job(argument, worker), with worker from 1 to count - 1, and returns at once: the caller does
      * the part of worker 0 itself. They see what was written before. Not called again before `wait`. */
     void (*start)(void *context, el_job *job, void *argument);
+    /* In a job: 0, 1, 2 and so on since `start`, each number once, whichever core asks. */
+    unsigned (*take)(void *context);
     /* Returns when all jobs have. The caller sees what they wrote. */
     void (*wait)(void *context);
     /* Called again and again, on any core, while it waits for something that another one does: sleep until an event, let

@@ -33,10 +33,10 @@ static inline void el_hidden_begin(el_hidden *hidden, const el_stats *stats)
     hidden->pixels_before = stats->pixels;
 }
 
-/* Whether it is worth to ask: half as many pixels as the band has were drawn into it. */
+/* Whether it is worth to ask: as many pixels as the band has were drawn into it. */
 static inline bool el_hidden_is_likely(const el_hidden *hidden, const el_target *target, const el_stats *stats)
 {
-    return (stats->pixels - hidden->pixels_before) * 2U >= (uint32_t)((target->y_end - target->y) * target->width);
+    return stats->pixels - hidden->pixels_before >= (uint32_t)((target->y_end - target->y) * target->width);
 }
 
 /* Whether no pixel of a triangle could pass the depth test: it lies within columns [x_begin, x_end) and no part of it is
