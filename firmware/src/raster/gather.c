@@ -117,7 +117,8 @@ static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const u
 }
 
 /* Where the corners of a thin record are, as its vertices would have been listed. */
-static __attribute__((noinline)) void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
+static __attribute__((noinline)) void find_points(const el_draw_state *draw, const el_record *record,
+                                                  el_corner corners[3])
 {
     uint16_t w[3];
     uint8_t shifts[3];
@@ -165,8 +166,8 @@ static inline void gather_points(const el_record *record, el_record_kind kind, e
 }
 
 /* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
-static __attribute__((noinline)) void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
-                              el_corner corners[3])
+static __attribute__((noinline)) void gather_attributes(const el_draw_state *draw, const el_record *record,
+                                                        el_record_kind kind, el_corner corners[3])
 {
     const el_shading shading = el_shading_of(draw);
     const bool turned = is_turned(draw, corners);
