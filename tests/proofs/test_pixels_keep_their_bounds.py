@@ -161,6 +161,8 @@ def side_domain(machine: Machine) -> list[Any]:
         machine.put(cell.content["x_q32"], path.atom(f"{name}.x", -2041 * WORD, 2042 * WORD - 1))
         machine.put(cell.content["step_q32"], path.atom(f"{name}.step", -2 * guard * WORD, 2 * guard * WORD))
     SIDES[id(path)] = {name: numbers_of(machine, cell) for name, cell in edges.items()}
+    machine.put(triangle.content["y"], 0)
+    machine.put(triangle.content["y_end"], path.choose(path.atom("y_end", 0, 1)))
     rows = path.choose(path.atom("rows", 1, MOST_ROWS))
     upper = path.choose(path.atom("upper", 1, MOST_ROWS + 1))
     columns = machine.array("uint16_t", [0] * MOST_ROWS)
@@ -178,7 +180,7 @@ def numbers_of(machine: Machine, edge: Any) -> tuple[Poly, Poly]:
 
 
 def side_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """Each row has its edge's column; the sum is theirs; what is left is the state of the row after them."""
+    """Each row has its edge's column; the sum is theirs; what is left is the state of the row after them, if any."""
     path = machine.path
     edges = SIDES.pop(id(path))
     rows, upper = arguments[3].poly.known, arguments[4].poly.known
@@ -192,11 +194,13 @@ def side_check(machine: Machine, arguments: list[Any], result: Number) -> None:
         if row + 1 == upper:
             x, step = edges["lower"]
     congruent(result.poly, total, WORD, "their sum")
+    triangle = arguments[0].cell
+    if rows >= upper and not machine.poly(triangle, "y_end").known:
+        return
     after = numbers_of(machine, arguments[1].cell)
     require((after[0] - x).constant == 0 and (after[1] - step).constant == 0, "the edge of the next row")
     if rows >= upper:
-        middle = machine.poly(arguments[0].cell, "y_middle")
-        require(middle.known == 2**15 - 1, "no middle is left")
+        require(machine.poly(triangle, "y_middle").known == 2**15 - 1, "no middle is left")
 
 
 SIDE = Subject(SPANS, "walk_bent", side_domain, side_check, modular=["walk", "walk_bent"])
@@ -445,10 +449,10 @@ def test_the_compiler_agrees(name: str) -> None:
             "perspective->v.value += perspective->v.dy",
             "perspective->v.value += perspective->u.dy",
         ),
-        ("side", SPANS, "*edge = triangle->lower", "edge->x_q32 = triangle->lower.x_q32"),
+        ("side", SPANS, "edge->step_q32 = triangle->lower.step_q32", "edge->step_q32 = edge->x_q32"),
         ("side", SPANS, "triangle->y_middle = INT16_MAX", "triangle->y_middle = 0"),
         ("side", SPANS, "if (rows < upper)", "if (rows <= upper)"),
-        ("side", SPANS, "walk(edge, x + upper, rows - upper)", "walk(edge, x, rows - upper)"),
+        ("side", SPANS, "x + upper, rows - upper)", "x, rows - upper)"),
         ("side", "raster/edge.h", "edge->x_q32 += edge->step_q32", "edge->x_q32 += edge->step_q32 + 1"),
         ("modulate", TEXTURE, "(light >> 24) + 1U", "(light >> 24) + 10U"),
         ("coloured", FILL, "v->red >> 27 << 6", "v->red >> 27 << 5"),

@@ -209,7 +209,7 @@ def test_areas_with_more_bits(bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("el_multiply_u16", FIXED_H, "* b + (middle >> 16)", "* b + (middle >> 17)"),
+        ("el_multiply_u16", FIXED_H, "(uint64_t)middle << 16", "(uint64_t)middle << 17"),
         ("el_multiply_u64", FIXED_H, "b < 0 ? 0 - product", "b < -1 ? 0 - product"),
         ("el_product_u64", FIXED_H, "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
         ("el_product_u64", FIXED_H, "(first >> 16) + (second >> 16)", "(first >> 16)"),

@@ -47,8 +47,7 @@ static inline uint64_t el_multiply_u16(uint64_t a, uint32_t b)
 #if defined(EL_PRODUCTS_IN_HALVES)
     const uint32_t low = (uint32_t)a;
     const uint32_t middle = (low >> 16) * b;
-    const uint32_t high = (uint32_t)(a >> 32) * b + (middle >> 16);
-    return ((uint64_t)high << 32 | middle << 16) + (low & 0xFFFFU) * b;
+    return ((uint64_t)((uint32_t)(a >> 32) * b) << 32 | (low & 0xFFFFU) * b) + ((uint64_t)middle << 16);
 #else
     return a * b;
 #endif

@@ -46,6 +46,7 @@ static EL_SPECIALISED el_cursor el_cursor_at(const el_target *target, int32_t y,
 
 static EL_SPECIALISED uint16_t *el_colour_at(const el_cursor *cursor, uint16_t *at)
 {
+    /* Of another array: a sum of numbers, as pointers have no distance. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     return (uint16_t *)((uintptr_t)at + cursor->to_colour);
 }
 

@@ -39,10 +39,13 @@ static uint32_t walk_bent(el_triangle *triangle, el_edge *edge, uint16_t *x, int
     if (rows < upper) {
         return walk(edge, x, rows);
     }
-    const uint32_t sum = walk(edge, x, upper);
-    *edge = triangle->lower;
-    triangle->y_middle = INT16_MAX;
-    return sum + walk(edge, x + upper, rows - upper);
+    const uint32_t sum = walk(edge, x, upper) + walk(&triangle->lower, x + upper, rows - upper);
+    if (!el_triangle_is_done(triangle)) {
+        edge->x_q32 = triangle->lower.x_q32;
+        edge->step_q32 = triangle->lower.step_q32;
+        triangle->y_middle = INT16_MAX;
+    }
+    return sum;
 }
 
 int32_t el_spans_next(el_triangle *triangle, const el_target *target, el_stats *stats, el_spans *spans)
