@@ -483,65 +483,79 @@ def small_divisor(machine: Machine, least: int = 1) -> Pointer:
     return Pointer([divisor])
 
 
-def digit_domain(machine: Machine) -> list[Any]:
-    path = machine.path
-    normalised = path.atom("normalised", 1 << 15, (1 << 16) - 1)
-    high, low = path.atom("high", 0, (1 << 16) - 2), machine.number("uint32_t", "low", 0, (1 << 16) - 1)
-    path.assume(normalised - 1 - high)
-    if normalised.constant is not None:
-        reciprocal = Poly.of((B // 2) // normalised.constant)
-    else:
-        reciprocal = path.atom("reciprocal", 0, 1 << 16)
-        rest = B // 2 - reciprocal * normalised
-        path.assume(rest)
-        path.assume(2 * normalised - 1 - rest)
-        path.assume_product(high, rest)
-        path.assume_product(high, 2 * normalised - 1 - rest)
-    divisor = machine.struct("el_small_divisor", d=1, limit=1, normalised=normalised, reciprocal=reciprocal, shift=0)
-    return [machine.exactly("uint32_t", high), low, Pointer([divisor]), machine.array("uint32_t", [0])]
+def digit_domain(bits: int) -> Any:
+    """Digits of 16 bits; or of 11, by a divisor of 19 bits and the reciprocal of its upper 16, rounded up."""
+    size = 16 if bits == 16 else 19
+
+    def domain(machine: Machine) -> list[Any]:
+        path = machine.path
+        normalised = path.atom("normalised", 1 << (size - 1), (1 << size) - 1)
+        high, low = path.atom("high", 0, (1 << size) - 2), machine.number("uint32_t", "low", 0, (1 << bits) - 1)
+        path.assume(normalised - 1 - high)
+        of = normalised if bits == 16 else path.floor(normalised, 8) + 1
+        if normalised.constant is not None:
+            reciprocal = Poly.of((B // 2) // of.known)
+        else:
+            reciprocal = path.atom("reciprocal", 0, 1 << 16)
+            path.assume(B // 2 - reciprocal * of)
+            path.assume((2 if bits == 16 else 1) * of - 1 - B // 2 + reciprocal * of)
+        divisor = machine.struct(
+            "el_small_divisor", d=1, limit=1, normalised=normalised, reciprocal=reciprocal, shift=0
+        )
+        numbers = [machine.exactly("uint32_t", high), low, machine.exactly("uint32_t", bits)]
+        return [*numbers, Pointer([divisor]), machine.array("uint32_t", [0])]
+
+    return domain
 
 
 def first_digit_lemma(machine: Machine, quotient: Number) -> Number:
-    """q = floor(high r / 2^15), times what is divided by: not above high 2^16, and not far below."""
-    path, scope = machine.path, machine.scopes[0]
-    if quotient.poly.constant is not None or "el_divide_digit.quotient" in machine.locals:
+    """q = floor(h r / 2^(31 - bits)), times what r is the reciprocal of: not above high 2^bits, and not far below."""
+    path, scope, q = machine.path, machine.scopes[0], quotient.poly
+    if q.constant is not None or "el_divide_digit.quotient" in machine.locals:
         return quotient
+    bits = scope["bits"].content.poly.known
     divisor = scope["divisor"].content.cell
-    high, normalised = scope["high"].content.poly, machine.poly(divisor, "normalised")
-    cut_off = high * machine.poly(divisor, "reciprocal") - quotient.poly * (1 << 15)
-    path.assume_product(cut_off, normalised)
-    path.assume_product((1 << 15) - 1 - cut_off, normalised)
+    h, normalised = scope["high"].content.poly, machine.poly(divisor, "normalised")
+    of = normalised
+    if bits == 11:
+        h, upper = path.floor(h, 8), path.floor(normalised, 8)
+        of = upper + 1
+        path.assume_product(q, normalised - upper * 8)
+        path.assume_product(q, upper * 8 + 7 - normalised)
+        path.assume_product((1 << 16) - h, upper)
+    reciprocal = machine.poly(divisor, "reciprocal")
+    rest, cut_off = B // 2 - reciprocal * of, h * reciprocal - q * (1 << (31 - bits))
+    path.assume_product(h, rest)
+    path.assume_product(h, (2 if bits == 16 else 1) * of - 1 - rest)
+    path.assume_product(cut_off, of)
+    path.assume_product((1 << (31 - bits)) - 1 - cut_off, of)
     return quotient
 
 
 def digit_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    high, low, divisor, remainder = arguments
+    high, low, bits, divisor, remainder = arguments
     normalised, rest = machine.poly(divisor.cell, "normalised"), machine.poly(remainder.cell)
     machine.path.prove(rest, "0 <= remainder")
     machine.path.prove(normalised - 1 - rest, "remainder < normalised")
-    exact = high.poly * (1 << 16) + low.poly - result.poly * normalised - rest
+    exact = high.poly * (1 << bits.poly.known) + low.poly - result.poly * normalised - rest
     machine.path.prove(exact, "n = q normalised + remainder", zero=True)
 
 
-DIGIT = Subject(
-    FILE,
-    "el_divide_digit",
-    digit_domain,
-    digit_check,
-    ["el_divide_digit"],
-    lemmas={"el_divide_digit.quotient": first_digit_lemma},
-    core=ARMV6M,
-)
+def digit_subject(bits: int) -> Subject:
+    lemmas = {"el_divide_digit.quotient": first_digit_lemma}
+    return Subject(
+        FILE, "el_divide_digit", digit_domain(bits), digit_check, ["el_divide_digit"], lemmas=lemmas, core=ARMV6M
+    )
 
 
 def digit(machine: Machine, arguments: list[Any]) -> Number:
     """The contract of el_divide_digit."""
-    high, low, divisor, remainder = arguments
-    path, normalised = machine.path, machine.poly(divisor.cell, "normalised")
+    high, low, bits, divisor, remainder = arguments
+    path, normalised, base = machine.path, machine.poly(divisor.cell, "normalised"), 1 << bits.poly.known
     path.prove(normalised - 1 - high.poly, "el_divide_digit: high < normalised")
-    path.prove((1 << 16) - 1 - low.poly, "el_divide_digit: low < 2^16")
-    n = high.poly * (1 << 16) + low.poly
-    quotient = path.atom("digit", 0, (1 << 16) - 1)
+    path.prove(base - 1 - low.poly, "el_divide_digit: low < 2^bits")
+    n = high.poly * base + low.poly
+    quotient = path.atom("digit", 0, base - 1)
     path.assume(n - quotient * normalised)
     path.assume(normalised - 1 - n + quotient * normalised)
     machine.put(remainder.cell, n - quotient * normalised)
@@ -553,7 +567,7 @@ DIGITS: list[Poly] = []
 
 
 def asked_for(machine: Machine, arguments: list[Any]) -> Number:
-    """el_divide_i32_q32, proven below: what is divided by what, and some quotient."""
+    """el_divide_small_apart_q32, proven below: what is divided by what, and some quotient."""
     n, d = (argument.poly for argument in arguments)
     scope = machine.scopes[0]
     machine.path.prove(n - scope["n"].content.poly, "the dividend is handed on", zero=True)
@@ -563,7 +577,7 @@ def asked_for(machine: Machine, arguments: list[Any]) -> Number:
 
 def small_domain(machine: Machine) -> list[Any]:
     DIGITS.clear()
-    n = machine.number("int32_t", "n", -(2**31) + 1)
+    n = machine.number("int32_t", "n", -(2**27) + 1, 2**27 - 1)
     return [n, small_divisor(machine)]
 
 
@@ -615,38 +629,107 @@ SMALL_LEMMAS = {
 def small(core: str) -> Subject:
     function, own = "el_divide_small_q32", ["el_divide_small_q32"]
     if core:
-        contracts_of = {"el_divide_digit": digit, "el_divide_i32_q32": asked_for}
+        contracts_of = {"el_divide_digit": digit, "el_divide_small_apart_q32": asked_for}
         return Subject(FILE, function, small_domain, small_check, own, contracts_of, core=core)
     return Subject(FILE, function, small_domain, small_check, own, lemmas=SMALL_LEMMAS)
 
 
-def i32_domain(machine: Machine) -> list[Any]:
+def apart_domain(machine: Machine) -> list[Any]:
     path = machine.path
     sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
-    d = path.atom("d", 1, 2**31 - 1) * sign
-    return [machine.number("int32_t", "n", -(2**31) + 1), machine.exactly("int32_t", d)]
+    d = path.atom("d", 1, (1 << machine.constant(machine.unit.constants["EL_SMALL_DIVISOR_BITS"])) - 1) * sign
+    return [machine.number("int32_t", "n", -(2**27) + 1, 2**27 - 1), machine.exactly("int32_t", d)]
 
 
-def divided_alike(machine: Machine, arguments: list[Any]) -> Number:
-    """el_divide_q32, proven above: it is asked for n / d, both with d's sign."""
-    asked, fraction, divisor = arguments
-    n, d = (machine.scopes[0][name].content.poly for name in "nd")
-    sign = 1 if d.interval()[0] > 0 else -1
-    machine.path.prove(asked.poly - n * sign, "the dividend", zero=True)
-    machine.path.prove(fraction.poly, "no fraction", zero=True)
-    machine.path.prove(contracts.divisor_of(divisor) - d * sign, "the divisor", zero=True)
-    return machine.number("int64_t", "quotient")
+def divided_alike(machine: Machine, n: Poly, d: Poly) -> Poly:
+    """What is proven of n / d elsewhere is asked for |n| / |d|; some quotient."""
+    for asked, name in ((n, "n"), (d, "d")):
+        given = machine.scopes[0][name].content.poly
+        machine.path.prove(asked, "a magnitude")
+        if not machine.path.holds(given):
+            given = -given
+        machine.path.prove(asked - given, f"|{name}|", zero=True)
+    quotient = machine.path.atom("quotient", 0, 2**62)
+    ASKED[id(machine.path)] = quotient
+    return quotient
 
 
-I32_Q32 = Subject(
+ASKED: dict[int, Poly] = {}
+
+
+def apart_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    n, d = (argument.poly for argument in arguments)
+    negative = not machine.path.decide(n, -n - 1)
+    quotient = ASKED.pop(id(machine.path))
+    signed = -quotient if negative != (d.interval()[1] < 0) else quotient
+    difference = result.poly - signed
+    machine.path.prove(difference - machine.path.floor(difference, B * B) * (B * B), "Q with its sign", zero=True)
+
+
+APART = Subject(
     FILE,
-    "el_divide_i32_q32",
-    i32_domain,
-    modular=["el_divide_i32_q32"],
-    contracts={"el_divide_q32": divided_alike, "el_divisor_make": contracts.divisor_make},
+    "el_divide_small_apart_q32",
+    apart_domain,
+    apart_check,
+    ["el_divide_small_apart_q32"],
+    {
+        "divide_by_large": lambda machine, arguments: machine.exactly(
+            "uint64_t", divided_alike(machine, arguments[0].poly, arguments[1].poly)
+        ),
+        "el_divide_q32": lambda machine, arguments: machine.exactly(
+            "int64_t", divided_alike(machine, arguments[0].poly, contracts.divisor_of(arguments[2]))
+        ),
+        "el_divisor_make": contracts.divisor_make,
+    },
+    core=ARMV6M,
+)
+
+
+def large_domain(machine: Machine) -> list[Any]:
+    DIGITS.clear()
+    return [
+        machine.number("uint32_t", "n", 0, 2**27 - 1),
+        machine.number("uint32_t", "d", 2**16, 2**19 - 1),
+    ]
+
+
+def reciprocal_of_upper(machine: Machine, arguments: list[Any]) -> Number:
+    """el_reciprocal_u16, proven above for each."""
+    upper = arguments[0].poly
+    machine.path.prove(upper - (1 << 15) - 1, "el_reciprocal_u16: above 2^15")
+    machine.path.prove((1 << 16) - upper, "el_reciprocal_u16: at most 2^16")
+    return machine.exactly("uint32_t", machine.path.new_quotient(Poly.of(B // 2), upper, 1 << 15, (1 << 16) - 1))
+
+
+def large_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """Of the last digit only the upper ten bits."""
+    n, d = (argument.poly for argument in arguments)
+    rest = n * B - result.poly * d
+    machine.path.prove(rest, "Q d <= 2^32 n")
+    machine.path.prove(d - 1 - rest, "2^32 n < (Q + 1) d")
+
+
+def last_digit_lemma(machine: Machine, low: Number) -> Number:
+    """A bit less, times the divisor."""
+    d = machine.scopes[0]["d"].content.poly
+    if low.poly.constant is None:
+        machine.path.assume_product(DIGITS[-1] - low.poly * 2, d)
+        machine.path.assume_product(low.poly * 2 + 1 - DIGITS[-1], d)
+    return low
+
+
+LARGE = Subject(
+    FILE,
+    "divide_by_large",
+    large_domain,
+    large_check,
+    contracts={"el_divide_digit": digit, "el_reciprocal_u16": reciprocal_of_upper},
+    lemmas={"divide_by_large.low": last_digit_lemma},
+    core=ARMV6M,
 )
 
 CORES = pytest.mark.parametrize("core", ["", ARMV6M], ids=["divider", "digits"])
+DIGIT_BITS = pytest.mark.parametrize("bits", [16, 11])
 
 
 @CORES
@@ -654,12 +737,14 @@ def test_quotients_by_small_divisors_are_exact(core: str) -> None:
     small(core).prove()
 
 
-def test_digits_are_exact() -> None:
-    DIGIT.prove()
+@DIGIT_BITS
+def test_digits_are_exact(bits: int) -> None:
+    digit_subject(bits).prove()
 
 
-def test_a_divisor_of_its_own() -> None:
-    I32_Q32.prove()
+def test_quotients_apart_are_exact() -> None:
+    APART.prove()
+    LARGE.prove()
 
 
 @CORES
@@ -675,8 +760,9 @@ def test_the_compiler_agrees_on_small_divisors(core: str) -> None:
     Subject(FILE, "el_divide_small_q32", domain, modular=["el_divide_small_q32"], core=core).agree(count=100)
 
 
-def test_the_compiler_agrees_on_digits() -> None:
-    DIGIT.agree()
+@DIGIT_BITS
+def test_the_compiler_agrees_on_digits(bits: int) -> None:
+    digit_subject(bits).agree()
 
 
 def test_the_proof_of_small_divisors_can_fail() -> None:
@@ -684,5 +770,9 @@ def test_the_proof_of_small_divisors_can_fail() -> None:
     small("").fails_with(Fault(HEADER, "EL_SMALL_DIVISOR_BITS = 19", "EL_SMALL_DIVISOR_BITS = 20"))
     small(ARMV6M).fails_with(Fault(HEADER, "magnitude >> 16 >= divisor->limit", "magnitude >> 16 > divisor->limit"))
     small(ARMV6M).fails_with(Fault(HEADER, "(n < 0) != (divisor->d < 0)", "n < 0"))
-    DIGIT.fails_with(Fault(HEADER, "while (rest >= divisor->normalised)", "while (rest > divisor->normalised)"))
-    I32_Q32.fails_with(Fault(FILE, "d < 0 ? -n : n", "n"))
+    text = "while (rest >= divisor->normalised)"
+    digit_subject(16).fails_with(Fault(HEADER, text, text.replace(">=", ">")))
+    digit_subject(11).fails_with(Fault(HEADER, "high : high >> 3", "high : high >> 2"))
+    LARGE.fails_with(Fault(TABLE, "normalised >> 3) + 1U", "normalised >> 3)"))
+    LARGE.fails_with(Fault(TABLE, "middle << 10 | low", "middle << 10"))
+    APART.fails_with(Fault(TABLE, "(n < 0) != (d < 0)", "n < 0"))

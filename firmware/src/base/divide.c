@@ -57,9 +57,3 @@ int64_t el_divide_wide_q32(int64_t n, uint32_t fraction, uint64_t d)
     }
     return (int64_t)(m.negative ? 0 - quotient : quotient);
 }
-
-uint64_t el_divide_i32_q32(int32_t n, int32_t d)
-{
-    const el_divisor divisor = el_divisor_make((uint32_t)(d < 0 ? -d : d));
-    return (uint64_t)el_divide_q32(d < 0 ? -n : n, 0, &divisor);
-}

@@ -133,14 +133,14 @@ EL_INLINE int32_t el_divide_floor_i64(int64_t n, const el_divisor *divisor)
 }
 
 /* Division by a small triangle's doubled area, 1 <= |d| < 2^EL_SMALL_DIVISOR_BITS, which needs no more than a register:
- * after the whole part, digits for which there is room behind the remainder. Cores without a divider have digits of 16
- * bits by a reciprocal of as many, for areas and whole parts below 2^16, which few are not. */
+ * after the whole part, digits for which there is room behind the remainder. Cores without a divider have them by a
+ * reciprocal of 16 bits: two of 16 bits, or three of 11 where d has more than 16 bits. */
 enum { EL_SMALL_DIVISOR_BITS = 19 };
 
 #if defined(EL_DIVIDE_BY_TABLE)
 typedef struct el_small_divisor {
     int32_t d;
-    uint32_t limit;      /* what |n| >> 16 must be below: |d|, or 0 when it has more than 16 bits */
+    uint32_t limit;      /* what |n| >> 16 must be below for digits of 16 bits: |d|, or 0 when it has more than 16 */
     uint32_t normalised; /* |d| << shift, 2^15 to 2^16 - 1 */
     uint32_t reciprocal; /* floor(2^31 / normalised), or 1 less */
     uint8_t shift;
@@ -149,11 +149,11 @@ typedef struct el_small_divisor {
 static inline el_small_divisor el_small_divisor_make(int32_t d)
 {
     const uint32_t magnitude = (uint32_t)(d < 0 ? -d : d);
+    uint32_t normalised = magnitude;
+    unsigned shift = 0;
     if (magnitude >> 16 != 0) {
         return (el_small_divisor){.d = d};
     }
-    uint32_t normalised = magnitude;
-    unsigned shift = 0;
     if (normalised >> 8 == 0) {
         normalised <<= 8;
         shift = 8;
@@ -182,12 +182,14 @@ static inline el_small_divisor el_small_divisor_make(int32_t d)
     };
 }
 
-/* floor((high * 2^16 + low) / normalised) and what remains. Pre: high < normalised, low < 2^16. */
-static inline uint32_t el_divide_digit(uint32_t high, uint32_t low, const el_small_divisor *divisor,
+/* floor((high * 2^bits + low) / normalised) and what remains, for digits of 16 bits; or of 11, with a divisor of 19 bits and
+ * the reciprocal of its upper 16, rounded up. Pre: high < normalised, low < 2^bits. */
+static inline uint32_t el_divide_digit(uint32_t high, uint32_t low, unsigned bits, const el_small_divisor *divisor,
                                        uint32_t *remainder)
 {
-    uint32_t quotient = (high * divisor->reciprocal) >> 15; /* too low by 5 at most */
-    uint32_t rest = (high << 16 | low) - quotient * divisor->normalised;
+    /* The product of 16 bits each stays below 2^32. The quotient is too low by 5 at most. */
+    uint32_t quotient = ((bits == 16 ? high : high >> 3) * divisor->reciprocal) >> (31 - bits);
+    uint32_t rest = (high << bits | low) - quotient * divisor->normalised;
     while (rest >= divisor->normalised) {
         rest -= divisor->normalised;
         quotient++;
@@ -195,6 +197,9 @@ static inline uint32_t el_divide_digit(uint32_t high, uint32_t low, const el_sma
     *remainder = rest;
     return quotient;
 }
+
+/* el_divide_small_q32 where the divisor has more than 16 bits, or the whole part. */
+uint64_t el_divide_small_apart_q32(int32_t n, int32_t d);
 #else
 typedef struct el_small_divisor {
     int32_t d;
@@ -206,24 +211,21 @@ static inline el_small_divisor el_small_divisor_make(int32_t d)
 }
 #endif
 
-/* n / d as Q32, truncated towards zero, in 64 bits, by a divisor of its own. |n| < 2^31, 1 <= |d| < 2^31. */
-uint64_t el_divide_i32_q32(int32_t n, int32_t d);
-
-/* The same by a divisor that is used several times. */
+/* n / d as Q32, truncated towards zero, in 64 bits. |n| < 2^27. */
 static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *divisor)
 {
 #if defined(EL_DIVIDE_BY_TABLE)
     const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
     if (magnitude >> 16 >= divisor->limit) {
-        return el_divide_i32_q32(n, divisor->d);
+        return el_divide_small_apart_q32(n, divisor->d);
     }
     uint32_t rest = magnitude << divisor->shift; /* below |d| << 16 << shift */
     uint32_t whole = 0;
     if (rest >= divisor->normalised) {
-        whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, divisor, &rest);
+        whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, 16, divisor, &rest);
     }
-    const uint32_t high = el_divide_digit(rest, 0, divisor, &rest);
-    const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, divisor, &rest);
+    const uint32_t high = el_divide_digit(rest, 0, 16, divisor, &rest);
+    const uint64_t quotient = (uint64_t)whole << 32 | high << 16 | el_divide_digit(rest, 0, 16, divisor, &rest);
     return (n < 0) != (divisor->d < 0) ? 0 - quotient : quotient;
 #else
     /* Signed: each digit has the quotient's sign, and so has the remainder n's, below 2^19 as d is: 2^12 of it fits. */

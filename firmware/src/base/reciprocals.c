@@ -1,5 +1,5 @@
-/* Tables for cores without a divider: a division costs them a hundred instructions. Where size counts they divide.
- * tests/unit/test_divide.c computes the tables anew. */
+/* For cores without a divider, to which a division costs a hundred instructions: tables, and divisions that are rare enough
+ * not to be inline. Where size counts they divide. tests/unit/test_divide.c computes the tables anew. */
 #include "base/divide.h"
 
 #if defined(EL_DIVIDE_BY_TABLE)
@@ -106,4 +106,35 @@ const uint16_t el_first_guesses[512] = {
     0x40F4, 0x40E3, 0x40D3, 0x40C2, 0x40B2, 0x40A2, 0x4091, 0x4081, 0x4071, 0x4061, 0x4050, 0x4040, 0x4030, 0x4020, 0x4010, 0x4000,
 };
 /* clang-format on */
+
+/* Of divisors with 17 to 19 bits, whole parts have 11, since |n| < 2^27. */
+static uint64_t divide_by_large(uint32_t n, uint32_t d)
+{
+    el_small_divisor divisor = {.normalised = d};
+    while (divisor.normalised >> 18 == 0) {
+        divisor.normalised <<= 1;
+        divisor.shift++;
+    }
+    divisor.reciprocal = el_reciprocal_u16((divisor.normalised >> 3) + 1U);
+    uint32_t rest = n << divisor.shift;
+    const uint32_t whole = el_divide_digit(rest >> 11, rest & 0x7FFU, 11, &divisor, &rest);
+    const uint32_t high = el_divide_digit(rest, 0, 11, &divisor, &rest);
+    const uint32_t middle = el_divide_digit(rest, 0, 11, &divisor, &rest);
+    const uint32_t low = el_divide_digit(rest, 0, 11, &divisor, &rest) >> 1;
+    return (uint64_t)whole << 32 | high << 21 | middle << 10 | low;
+}
+
+uint64_t el_divide_small_apart_q32(int32_t n, int32_t d)
+{
+    const uint32_t dividend = (uint32_t)(n < 0 ? -n : n);
+    const uint32_t by = (uint32_t)(d < 0 ? -d : d);
+    uint64_t quotient;
+    if (by >> 16 != 0) {
+        quotient = divide_by_large(dividend, by);
+    } else {
+        const el_divisor divisor = el_divisor_make(by);
+        quotient = (uint64_t)el_divide_q32(dividend, 0, &divisor);
+    }
+    return (n < 0) != (d < 0) ? 0 - quotient : quotient;
+}
 #endif

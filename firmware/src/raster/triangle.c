@@ -1,3 +1,5 @@
+/* Set-up: from three corners to edges and planes. Small triangles, which are most of a mesh, take a way of their own
+ * (small_plane.h, short edges of edge.h) that leads to the same pixels with the arithmetic of one register. */
 #include <stddef.h>
 #include <string.h>
 
