@@ -490,6 +490,16 @@ class Machine(Arithmetic):
         except _Break:
             pass
 
+    def _stmt_DoWhile(self, node: c_ast.DoWhile) -> None:
+        try:
+            while True:
+                with contextlib.suppress(_Continue):
+                    self.execute(node.stmt)
+                if self.is_zero(self.evaluate(node.cond)):
+                    break
+        except _Break:
+            pass
+
     def _stmt_Switch(self, node: c_ast.Switch) -> None:
         value = self.evaluate(node.cond).poly
         chosen = False

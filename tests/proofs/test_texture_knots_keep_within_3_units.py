@@ -109,7 +109,7 @@ def knot_domain(machine: Machine) -> list[Any]:
     shift = path.choose(path.atom("shift", 0, 27))
     base = machine.number("int32_t", "base", -TEXELS << 16, TEXELS << 16)
     numbers = machine.exactly("unsigned", path.atom("s", 1, 31)), machine.exactly("uint32_t", r)
-    return [machine.number("uint64_t", "U"), *numbers, machine.exactly("uint8_t", shift), base]
+    return [machine.number("uint64_t", "U"), *numbers, machine.exactly("unsigned", 30 - shift), base]
 
 
 KNOTS: dict[int, tuple[Poly, Poly, Poly, Poly, Poly]] = {}
@@ -145,7 +145,7 @@ def knot_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     """Off by less than KNOT_ERROR units; and within the base and 2^27, so that the difference of two fits 32 bits."""
     path = machine.path
     m, rest, n, below, _ = KNOTS.pop(id(path))
-    shift, base = arguments[3].poly.known, arguments[4].poly
+    shift, base = 30 - arguments[3].poly.known, arguments[4].poly
     a, b = m * WORD + rest, n * WORD + below
     ratio = machine.locals["knot.ratio_q30"].poly
     error = machine.constant(machine.unit.constants["EL_RECIPROCAL_ERROR"])
@@ -192,49 +192,74 @@ def upper_check(machine: Machine, arguments: list[Any], result: Number) -> None:
 UPPER = Subject(FILE, "upper_word", upper_domain, upper_check)
 
 
-# --- both knots of a walk, and on to the next -------------------------------------------------------------------------
+# --- what a knot is made of -------------------------------------------------------------------------------------------
 
 
-def find_domain(machine: Machine) -> list[Any]:
-    """A walk at a W and a U that it can have."""
+def leading_domain(machine: Machine) -> list[Any]:
+    """x of any length, and where its leading zeros may have been."""
+    length, near = machine.path.choose(machine.path.atom("length", 1, 32)), machine.path.atom("near", 0, 31)
+    return [
+        machine.number("uint32_t", "x", 1 << length - 1, (1 << length) - 1),
+        machine.exactly("unsigned", machine.path.choose(near)),
+    ]
+
+
+def leading_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    x = arguments[0].poly * (1 << result.poly.known)
+    require(machine.path.within(x, 2**31, WORD - 1), "the top bit is set, and nothing lost")
+
+
+LEADING = Subject(FILE, "leading_zeros", leading_domain, leading_check, ["leading_zeros"])
+
+
+def find_w_domain(machine: Machine) -> list[Any]:
+    """A walk, and pixels to where it has a W that it can have."""
     path = machine.path
-    planes, walk = machine.struct("el_perspective"), machine.struct("el_texture_walk")
-    w = path.atom("W", 1, 2**31 - 1) * WORD + path.atom("fraction", 0, WORD - 1)
-    machine.put(walk.content["w"], w)
-    wanted = []
-    for name in "uv":
-        u, shift = path.atom(name, 0, 2**64 - 1), path.atom(f"{name}_shift", 0, 27)
-        base = path.atom(f"{name}_base", -TEXELS << 16, TEXELS << 16)
-        machine.put(walk.content[name], u)
-        machine.put(planes.content[f"{name}_shift"], shift)
-        machine.put(planes.content[f"{name}_base_q16"], base)
-        wanted.append((u, shift, base))
-    walk.content["planes"].content = Pointer([planes])
-    machine.contracts = Found(w, wanted).contracts()
-    return [Pointer([walk])]
+    walk = machine.struct("el_texture_walk")
+    for name in ("w", "w_dx"):
+        machine.put(walk.content[name], path.atom(name, 0, 2**64 - 1))
+    machine.put(walk.content["w_shift"], path.atom("shift before", 0, 31))
+    there = path.atom("W", 1, 2**31 - 1) * WORD + path.atom("fraction", 0, WORD - 1)
+    pixels = machine.number("uint32_t", "pixels", 0, 4080)
+    machine.contracts = FoundW(machine, walk, pixels, there).contracts()
+    return [Pointer([walk]), pixels]
 
 
-class Found:
-    """What find_knot asks for on one path: N, its reciprocal, and the knot of u and then of v, each with its own."""
+class FoundW:
+    """What find_w asks for on one path."""
 
-    def __init__(self, w: Poly, wanted: list[tuple[Poly, Poly, Poly]]) -> None:
-        self.w, self.wanted = w, wanted
-        self.shift, self.n, self.reciprocal = 0, Poly.of(0), Poly.of(0)
+    def __init__(self, machine: Machine, walk: Any, pixels: Number, there: Poly) -> None:
+        self.machine, self.walk, self.pixels, self.there = machine, walk, pixels.poly, there
+        self.shift, self.n = 0, Poly.of(0)
 
     def contracts(self) -> dict[str, Any]:
         return {
+            "el_multiply_u16": self.further,
+            "leading_zeros": self.leading,
             "upper_word": self.upper_word,
             "log2_of_normalised_q8": self.logarithm,
             "el_reciprocal_near": self.near,
-            "knot": self.knot,
         }
 
+    def further(self, machine: Machine, arguments: list[Any]) -> Number:
+        """What is added to W: so many times its gradient."""
+        for found, of in zip(arguments, (machine.poly(self.walk, "w_dx"), self.pixels), strict=True):
+            require((found.poly - of).constant == 0, "W's gradient times the pixels")
+        turns = machine.path.atom("turns", 0, 1)
+        return machine.exactly("uint64_t", self.there - machine.poly(self.walk, "w") + turns * 2**64)
+
+    def leading(self, machine: Machine, arguments: list[Any]) -> Number:
+        """leading_zeros, proven above, of W's whole part."""
+        x = arguments[0].poly
+        require((x - machine.path.floor(self.there, WORD)).constant == 0, "W's whole part")
+        self.shift = machine.leading_zeros(arguments[0], 32, None).poly.known
+        return machine.exactly("unsigned", self.shift)
+
     def upper_word(self, machine: Machine, arguments: list[Any]) -> Number:
-        require((arguments[0].poly - self.w).constant == 0, "the upper word of W")
-        self.shift = arguments[1].poly.known
-        require(self.shift >= 1, "W < 2^31")
-        require(machine.path.within(self.w * (1 << self.shift), 2**63, 2**64 - 1), "W's leading zeros")
-        self.n = machine.path.floor(self.w * (1 << self.shift), WORD)
+        require((arguments[0].poly - self.there).constant == 0, "the upper word of W")
+        require(arguments[1].poly.constant == self.shift >= 1, "W < 2^31")
+        require(machine.path.within(self.there * (1 << self.shift), 2**63, 2**64 - 1), "W's leading zeros")
+        self.n = machine.path.floor(self.there * (1 << self.shift), WORD)
         return machine.exactly("uint32_t", self.n)
 
     def logarithm(self, machine: Machine, arguments: list[Any]) -> Number:
@@ -244,60 +269,85 @@ class Found:
 
     def near(self, machine: Machine, arguments: list[Any]) -> Number:
         require((arguments[0].poly - self.n).constant == 0, "the reciprocal of N")
-        number = contracts.reciprocal_near(machine, arguments)
-        self.reciprocal = number.poly
-        return number
-
-    def knot(self, machine: Machine, arguments: list[Any]) -> Number:
-        u, w_shift, reciprocal, shift, base = (argument.poly for argument in arguments)
-        exact = (*self.wanted.pop(0), Poly.of(self.shift), self.reciprocal)
-        for found, of in zip((u, shift, base, w_shift, reciprocal), exact, strict=True):
-            require((found - of).constant == 0, "a knot of its own numbers")
-        return machine.exactly("int32_t", len(self.wanted))
+        SHIFTS[id(machine.path)] = self.shift
+        return machine.exactly("uint32_t", RECIPROCAL)
 
 
-LOG_OF_W = 7  # a number to know it by
+LOG_OF_W, RECIPROCAL = 7, 2**31 + 5  # numbers to know them by
+SHIFTS: dict[int, int] = {}
 
 
-def find_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    require(machine.poly(arguments[0].cell, "w_log2_q8").known == LOG_OF_W, "the logarithm of W")
-    for i, name in enumerate("vu"):
-        require(machine.poly(arguments[0].cell, f"next_{name}_q16").known == i, f"the next knot of {name}")
+def find_w_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    walk = arguments[0].cell
+    wanted = {"w_log2_q8": LOG_OF_W, "reciprocal": RECIPROCAL, "w_shift": SHIFTS.pop(id(machine.path))}
+    for name, value in wanted.items():
+        require(machine.poly(walk, name).known == value, name)
 
 
-FIND = Subject(FILE, "find_knot", find_domain, find_check)
+FIND_W = Subject(FILE, "find_w", find_w_domain, find_w_check, modular=["find_w"])
 
 
-def go_on_domain(machine: Machine) -> list[Any]:
+def find_knot_domain(machine: Machine) -> list[Any]:
+    """u or v anywhere, and the last knot."""
     path = machine.path
-    planes, walk = machine.struct("el_perspective"), machine.struct("el_texture_walk")
-    for name in "wuv":
-        machine.put(planes.content[name].content["dx"], path.atom(f"d{name}", 0, 2**64 - 1))
-        machine.put(walk.content[name], path.atom(name, 0, 2**64 - 1))
-    walk.content["planes"].content = Pointer([planes])
-    BEFORE[id(path)] = {name: machine.poly(walk, name) for name in "wuv"}
-    return [Pointer([walk]), machine.number("uint32_t", "pixels", 0, 4080)]
+    axis = machine.struct("el_texture_axis")
+    for name in ("value", "dx"):
+        machine.put(axis.content[name], path.atom(name, 0, 2**64 - 1))
+    machine.put(axis.content["down"], path.atom("down", 3, 30))
+    machine.put(axis.content["base_q16"], path.atom("base", -TEXELS << 16, TEXELS << 16))
+    machine.put(axis.content["next_q16"], path.atom("before", -MOST_KNOT, MOST_KNOT))
+    before = {name: machine.poly(axis, name) for name in ("value", "dx", "down", "base_q16", "next_q16")}
+    pixels = machine.number("uint32_t", "pixels", 0, 4080)
+    shift, reciprocal = machine.number("unsigned", "s", 1, 31), machine.number("uint32_t", "reciprocal", 2**31)
+    step_reciprocal = machine.number("uint32_t", "step reciprocal")
+    asked = (shift.poly, reciprocal.poly, before["down"], before["base_q16"])
+    added: list[Number] = []
+
+    def further(of: Machine, arguments: list[Any]) -> Number:
+        """el_multiply_u16: the gradient times the pixels."""
+        require((arguments[0].poly - before["dx"]).constant == 0, "its own gradient")
+        require((arguments[1].poly - pixels.poly).constant == 0, "times the pixels")
+        added.append(of.number("uint64_t", "further", 0, 2**64 - 1))
+        return added[0]
+
+    def knot_there(of: Machine, arguments: list[Any]) -> Number:
+        congruent(arguments[0].poly, before["value"] + added[0].poly, 2**64, "at its plane's value there")
+        for found, exact in zip(arguments[1:], asked, strict=True):
+            require((found.poly - exact).constant == 0, "a knot of its own numbers")
+        return of.number("int32_t", "knot", -MOST_KNOT, MOST_KNOT)
+
+    def step(of: Machine, arguments: list[Any]) -> Number:
+        difference = of.poly(axis, "next_q16") - before["next_q16"]
+        require((arguments[0].poly - difference).constant == 0, "the difference of the two knots")
+        require((arguments[1].poly - step_reciprocal.poly).constant == 0, "over their distance")
+        return of.exactly("int32_t", STEP)
+
+    machine.contracts = {"el_multiply_u16": further, "knot": knot_there, "el_multiply_high_i32_u32": step}
+    BEFORE[id(path)] = before
+    return [Pointer([axis]), pixels, shift, reciprocal, step_reciprocal]
 
 
+STEP = 11  # a number to know it by
 BEFORE: dict[int, dict[str, Poly]] = {}
 
 
-def go_on_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    walk, pixels = arguments[0].cell, arguments[1].poly
-    planes = walk.content["planes"].content.cell
-    for name, before in BEFORE.pop(id(machine.path)).items():
-        moved = before + machine.poly(planes, name, "dx") * pixels
-        congruent(machine.poly(walk, name), moved, 2**64, f"{name} there")
+def find_knot_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """The piece begins where the last knot was; the step is that of the difference."""
+    axis, before = arguments[0].cell, BEFORE.pop(id(machine.path))
+    require((machine.poly(axis, "q16") - before["next_q16"]).constant == 0, "from the knot before")
+    require(machine.poly(axis, "step_q16").known == STEP, "the step")
+    require((machine.poly(axis, "value") - before["value"]).constant == 0, "the span's beginning stays")
 
 
-GO_ON = Subject(FILE, "go_on", go_on_domain, go_on_check, ["go_on"], {"el_multiply_u16": contracts.multiply_u64})
+FIND_KNOT = Subject(FILE, "find_knot", find_knot_domain, find_knot_check, modular=["find_knot"])
 
 SUBJECTS = {
     "corners": CORNERS,
     "upper word": UPPER,
     "knot": KNOT,
-    "find knot": FIND,
-    "go on": GO_ON,
+    "leading zeros": LEADING,
+    "find W": FIND_W,
+    "find knot": FIND_KNOT,
 }
 
 
@@ -322,11 +372,14 @@ def test_the_compiler_agrees(name: str) -> None:
         ("corners", TRIANGLE, "(least + most) >> 1", "(least + most) >> 2"),
         ("upper word", FILE, ">> 1 >> (31U - shift)", ">> (31U - shift)"),
         ("knot", FILE, "upper_word(u_q32, w_shift - 1U)", "upper_word(u_q32, w_shift)"),
-        ("knot", FILE, "ratio_q30 >> (30 - shift)", "ratio_q30 >> (31 - shift)"),
+        ("knot", FILE, "ratio_q30 >> down", "ratio_q30 >> (down + 1U)"),
         ("knot", "base/divide.h", "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 32"),
-        ("find knot", FILE, "w_shift, reciprocal, p->v_shift", "w_shift, reciprocal, p->u_shift"),
-        ("find knot", FILE, "el_reciprocal_near(normalised)", "el_reciprocal_near(normalised | 1U)"),
-        ("go on", FILE, "walk->v += el_multiply_u16(p->v.dx", "walk->v += el_multiply_u16(p->u.dx"),
+        ("leading zeros", FILE, "x << near < 0x80000000U", "x << near < 0x40000000U"),
+        ("leading zeros", FILE, "x << near >> near != x", "x << near >> near == 0"),
+        ("find W", FILE, "el_reciprocal_near(normalised)", "el_reciprocal_near(normalised | 1U)"),
+        ("find W", FILE, "upper_word(w, shift)", "upper_word(w, walk->w_shift)"),
+        ("find knot", FILE, "axis->value + el_multiply_u16(axis->dx, pixels)", "axis->value - el_multiply_u16(axis->dx, pixels)"),
+        ("find knot", FILE, "to_q16 - from_q16, step", "from_q16 - to_q16, step"),
     ],
 )
 def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:

@@ -36,7 +36,7 @@ import contracts
 from c_execution import Machine as AnyMachine
 from c_source import parse
 from contracts import MOST_KNOT, PLANE_ERROR
-from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject
+from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from symbolic import Fact, Infeasible, Path, prove_over_reals, require
 
 FILE = "raster/texture_walk.c"
@@ -119,27 +119,22 @@ def check_reserve(fault: Fault | None = None) -> None:
     require(rounding <= 2**16 * 2**-5 / 16, "rounding fits the reserve")
 
 
-def check_logarithm(name: str, width: int, upwards: bool, fault: Fault | None = None) -> None:
-    """The C is constant on 128 segments per power of two: a floor is checked at their starts, a ceil at their ends."""
-    machine = AnyMachine(parse(FILE, 4, fault), Path([]))
-    c_type = machine.type_named("uint64_t" if width == 64 else "uint32_t")
-    for power in range(width):
+def check_logarithm(fault: Fault | None = None) -> None:
+    """log2_ceil_q8 looks at a number's power of two and the seven bits below it: at both ends of these segments, it is
+    the same, and enough for the upper one."""
+    unit = parse(FILE, 4, fault)
+    for power in range(64):
+        machine = AnyMachine(unit, Path([]), modular=["leading_zeros"])
+        near = machine.array("uint32_t", [31 - power % 32])
         step = max(1, 1 << power >> 7)
         for start in range(1 << power, 2 << power, step):
-            value = Number(c_type, machine.path.atom("x", start, start + step - 1))
-            log = machine.call(name, value).poly.constant
-            require(log is not None, "constant on a segment")
-            end = start + step - 1
-            ok = _log2_at_most(end, power, log) if upwards else _log2_at_least(start, power, log)
-            require(ok, f"{name}({start}) = {log}")
+            ends = (machine.exactly("uint64_t", x) for x in (start, start + step - 1))
+            log, other = (machine.call("log2_ceil_q8", x, near).poly.known for x in ends)
+            require(log == other, "constant on a segment")
+            require(_log2_at_most(start + step - 1, power, log), f"log2_ceil_q8({start}) = {log}")
 
 
 # x = 2^power * m / 2^k with a mantissa of few bits: exact powers of the mantissa alone.
-def _log2_at_least(x: int, power: int, log: int) -> bool:
-    """256 log2 x >= log."""
-    return x**256 >= 1 << log if power < 8 else (x >> power - 7) ** 256 >= 1 << log - 256 * (power - 7)
-
-
 def _log2_at_most(x: int, power: int, log: int) -> bool:
     """256 log2 x <= log."""
     return x**256 <= 1 << log if power < 8 else ((x >> power - 7) + 1) ** 256 <= 1 << log - 256 * (power - 7)
@@ -157,21 +152,10 @@ def test_the_reserve() -> None:
         check_reserve(Fault(FILE, "ROUNDING_RESERVE_Q8 = 24", "ROUNDING_RESERVE_Q8 = 23"))
 
 
-LOGARITHMS = pytest.mark.parametrize(
-    ("name", "width", "upwards"), [("log2_floor_q8", 32, False), ("log2_ceil_q8", 64, True)]
-)
-
-
-@LOGARITHMS
-def test_logarithms_are_rounded_against_the_piece(name: str, width: int, upwards: bool) -> None:
-    check_logarithm(name, width, upwards)
-
-
-@LOGARITHMS
-def test_the_proof_of_logarithms_can_fail(name: str, width: int, upwards: bool) -> None:
-    fault = Fault(FILE, "109, 111, 113", "109, 112, 113") if not upwards else Fault(FILE, "+ 1U] + 1;", "+ 1U];")
+def test_the_logarithm_of_j_is_rounded_up() -> None:
+    check_logarithm()
     with pytest.raises(AssertionError):
-        check_logarithm(name, width, upwards, fault)
+        check_logarithm(Fault(FILE, "+ 1U] + 1;", "+ 1U];"))
 
 
 def check_normalised(fault: Fault | None = None) -> None:
@@ -195,17 +179,12 @@ def test_the_logarithm_of_w_is_rounded_down() -> None:
 # --- how far u may bend -----------------------------------------------------------------------------------------------
 
 
-def logarithm(name: str) -> Any:
-    top = 32 * 256 if name == "log2_floor_q8" else 64 * 256
-
-    def contract(machine: Machine, arguments: list[Any]) -> Number:
-        machine.path.prove(arguments[0].poly - 1, f"{name}: x >= 1")
-        return machine.number("int32_t", "log", 0, top + 1)
-
-    return contract
+def log2_ceil(machine: Machine, arguments: list[Any]) -> Number:
+    machine.path.prove(arguments[0].poly - 1, "log2_ceil_q8: x >= 1")
+    return machine.number("int32_t", "log", 0, 64 * 256 + 1)
 
 
-LOGS = {name: logarithm(name) for name in ("log2_floor_q8", "log2_ceil_q8")}
+LOGS = {"log2_ceil_q8": log2_ceil}
 STEEP = 1 << 59
 
 
@@ -240,10 +219,9 @@ def curvature_domain(machine: Machine) -> list[Any]:
     step = u_step * 2**28 + u_step_rest
     J_NUMERATOR[id(path)] = step * exact_w - exact_u * (w_step * 2**28 + w_step_rest)
     signs = [0 if path.holds(of) else 2**64 for of in (step, exact_u)]
-    plane = machine.struct("el_plane", dx=step + signs[0])
-    numbers_of_w = machine.exactly("int32_t", w), machine.exactly("int32_t", w_step)
-    shift = machine.number("uint8_t", "shift", 0, 27)
-    return [machine.exactly("uint64_t", exact_u + signs[1]), Pointer([plane]), *numbers_of_w, shift]
+    axis = machine.struct("el_texture_axis", value=exact_u + signs[1], dx=step + signs[0])
+    machine.put(axis.content["down"], path.atom("down", 3, 30))
+    return [Pointer([axis]), machine.exactly("int32_t", w), machine.exactly("int32_t", w_step)]
 
 
 J_NUMERATOR: dict[int, Poly] = {}
@@ -297,7 +275,7 @@ def step_domain(machine: Machine) -> list[Any]:
     difference = machine.number("int32_t", "difference", -2 * MOST_KNOT, 2 * MOST_KNOT)
     length = machine.path.choose(machine.path.atom("length", 2, 64))
     LENGTHS[id(machine.path)] = length
-    return [difference, machine.call("reciprocal_of", machine.exactly("int32_t", length))]
+    return [difference, machine.call("reciprocal_of", machine.exactly("uint32_t", length))]
 
 
 LENGTHS: dict[int, int] = {}
@@ -314,135 +292,106 @@ def step(core: str = "") -> Subject:
     return Subject(FILE, "el_multiply_high_i32_u32", step_domain, step_check, core=core)
 
 
-def piece_domain(machine: Machine) -> list[Any]:
-    """A walk at any place of any span, its limit as el_texture_walk_begin makes it.
+FALLS, GROWS = 2**64 - 1, 1  # signs of W's gradient
 
-    Where W grows, the length that is found depends on W alone, wherever the search begins: here it begins with that
-    length, or with the longest. Where W falls, one that is not good enough, or too long for what is left of the span,
-    leaves the search where it would be had it begun with the next shorter one: that is a path of its own.
-    """
+
+def any_walk(machine: Machine, falls: int, length: int) -> Any:
+    """A walk at any place of a span, with that length: what set_length leaves of any limit."""
     path = machine.path
-    never, count = (machine.constant(machine.unit.constants[name]) for name in ("NEVER_Q8", "LENGTHS"))
-    limit, here = path.atom("limit", -never, never), path.atom("log2 W", 0, 32 * 256)
-    start = path.choose(path.atom("length", 0, count - 1))
+    (never,) = (machine.constant(machine.unit.constants["NEVER_Q8"]),)
+    here = path.atom("log2 W", 0, 32 * 256)
+    walk = machine.struct("el_texture_walk", w_log2_q8=here, w_dx=FALLS if falls else GROWS)
+    machine.put(walk.content["limit_q8"], path.atom("limit", -never, never))
+    machine.call("set_length", Pointer([walk]), machine.exactly("uint32_t", length))
+    return walk
+
+
+def piece_domain(machine: Machine) -> list[Any]:
+    """Where W grows, it is enough at the last knot for the length that there is, or that is one pixel: so begin leaves it,
+    and each piece. Where W falls, one pixel is never tried first."""
+    path = machine.path
+    count = machine.constant(machine.unit.constants["LENGTHS"])
     falls = path.choose(path.atom("falls", 0, 1))
-    # What is left of the span, by how it compares with the lengths.
-    lengths, logs = table("lengths"), table("length_q8")
-    ends = [1, 2, *(length + 2 for length in lengths), 2041]
-    part = path.choose(path.atom("part", 0, len(ends) - 2))
-    too_long = start > 0 and lengths[start - 1] >= ends[part + 1] - 2
-    if too_long and (falls or start + 1 < count):
-        raise Infeasible
-    if not falls and start + 1 < count:
-        path.assume(limit + logs[start + 1] - 1 - here)
-    if not falls and start > 0 and not too_long:
-        path.assume(here - limit - logs[start])
-    walk = machine.struct("el_texture_walk", limit_q8=limit, length=start, w_log2_q8=here)
-    for name in ("w", "u", "v"):
-        machine.put(walk.content[name], path.atom(name, 0, 2**64 - 1))
-    for name in ("next_u_q16", "next_v_q16"):
-        machine.put(walk.content[name], path.atom(name, -MOST_KNOT, MOST_KNOT))
-    planes = machine.struct("el_perspective")
-    machine.put(planes.content["w"].content["dx"], path.atom("dw", falls * 2**63, 2**63 - 1 + falls * 2**63))
-    walk.content["planes"].content = Pointer([planes])
-    left = machine.number("int32_t", "left", ends[part], ends[part + 1] - 1)
-    here_at = {name: machine.poly(walk, f"next_{name}_q16") for name in "uv"}
-    PIECES[id(path)] = Piece(here_at, left.poly, here if not falls else None)
-    return [Pointer([walk]), left]
+    length = path.choose(path.atom("length", falls, count - 1))
+    walk = any_walk(machine, falls, length)
+    if not falls and length > 0:
+        path.assume(machine.poly(walk, "w_log2_q8") - machine.poly(walk, "limit_q8") - table("length_q8")[length])
+    at, most = machine.number("uint32_t", "at", 0, 4079), machine.number("uint32_t", "most", 1, 4079)
+    PIECES[id(path)] = Piece(at.poly, most.poly, machine.poly(walk, "w_log2_q8"), bool(falls))
+    return [Pointer([walk]), at, most]
 
 
 @dataclass
 class Piece:
     """What is known of a piece, and what its proof comes to know."""
 
-    here: dict[str, Poly]  # u and v at its first pixel
-    left: Poly
-    least: Poly | None  # log2 of W where it is least on the piece
-    asked: Poly | None = None  # so many pixels from here, if W falls
-    gone: Poly | None = None
-    steps: list[tuple[Poly, Poly]] = field(default_factory=list)  # a difference of two knots, a step
+    at: Poly
+    most: Poly
+    here: Poly  # log2 of W at its beginning
+    falls: bool
+    there: Poly = field(default_factory=lambda: Poly.of(0))  # and at its end,
+    asked: Poly = field(default_factory=lambda: Poly.of(0))  # so many pixels from the span's beginning
+    length: Poly | None = None  # whose reciprocal is taken
+    knots: list[list[Any]] = field(default_factory=list)
 
 
 PIECES: dict[int, Piece] = {}
 
 
-def w_there(machine: Machine, arguments: list[Any]) -> Number:
-    """el_multiply_u16 of W's gradient, which is added to W: at a covered pixel, 1 <= W < 2^31 comes of it."""
-    piece, pixels = PIECES[id(machine.path)], arguments[1].poly
-    machine.path.prove(pixels - 1, "further on")
-    machine.path.prove(piece.left - 1 - pixels, "at a covered pixel")
-    walk = machine.scopes[0]["walk"].content.cell
-    piece.asked = pixels
-    there, turns = machine.path.atom("W there", WORD, 2**63 - 1), machine.path.atom("turns", 0, 1)
-    return machine.exactly("uint64_t", there - machine.poly(walk, "w") + turns * 2**64)
-
-
-def log_there(machine: Machine, arguments: list[Any]) -> Number:
-    log: Number = LOGS["log2_floor_q8"](machine, arguments)
-    piece = PIECES[id(machine.path)]
-    if piece.least is not None:
-        raise Infeasible  # where W falls, what was found for a longer piece says nothing of a shorter one
-    piece.least = log.poly
-    return log
-
-
-def gone_on(machine: Machine, arguments: list[Any]) -> None:
-    PIECES[id(machine.path)].gone = arguments[1].poly
-
-
-def next_knots(machine: Machine, arguments: list[Any]) -> None:
-    """find_knot: both, and the logarithm of W there."""
-    walk = arguments[0].cell
-    for name in "uv":
-        machine.put(walk.content[f"next_{name}_q16"], machine.path.atom("knot", -MOST_KNOT, MOST_KNOT))
-    machine.put(walk.content["w_log2_q8"], machine.path.atom("log2 W", 0, 32 * 256))
+def w_there(machine: Machine, arguments: list[Any]) -> None:
+    """find_w: the logarithm there, no less than here where W grows, for rounding down keeps what is larger so."""
+    piece, walk = PIECES[id(machine.path)], arguments[0].cell
+    piece.asked = arguments[1].poly
+    machine.path.prove(piece.asked - piece.at - 1, "further on")
+    machine.path.prove(piece.most - (piece.asked - piece.at), "at a covered pixel")
+    piece.there = machine.path.atom("log2 W there", 0, 32 * 256)
+    if not piece.falls:
+        machine.path.assume(piece.there - piece.here)
+    machine.put(walk.content["w_log2_q8"], piece.there)
+    machine.put(walk.content["w_shift"], machine.path.atom("shift", 1, 31))
+    machine.put(walk.content["reciprocal"], machine.path.atom("reciprocal", 2**31, WORD - 1))
 
 
 def reciprocal_of(machine: Machine, arguments: list[Any]) -> Number:
     """Of the piece's length; what it is for is proven of each length."""
-    length = PIECES[id(machine.path)].gone
-    require(length is not None and (arguments[0].poly - length).constant == 0, "of the piece's length")
-    machine.path.prove(arguments[0].poly - 2, "a length of 2 and more")
-    return machine.number("uint32_t", "reciprocal", 1 << 26, 1 << 31)
+    PIECES[id(machine.path)].length = arguments[0].poly
+    return machine.number("uint32_t", "reciprocal", 0, 1 << 31)
 
 
-def step_contract(machine: Machine, arguments: list[Any]) -> Number:
-    """el_multiply_high_i32_u32, of a difference and the reciprocal of the length."""
-    found = machine.number("int32_t", "step", -2 * MOST_KNOT, 2 * MOST_KNOT)
-    PIECES[id(machine.path)].steps.append((arguments[0].poly, found.poly))
-    return found
+def knot_there(machine: Machine, arguments: list[Any]) -> None:
+    PIECES[id(machine.path)].knots.append([arguments[0].cell, *(argument.poly for argument in arguments[1:])])
 
 
 def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
-    """1 <= length <= what is left of the span before its last pixel, and the longest piece.
+    """1 <= length <= what there is at most, and W is enough for more than one pixel.
 
-    W is enough for more than one pixel; the walk goes on by it, and the steps are over the difference of its knots.
+    The knots are at its end, where W was found last, and over its length; and the next piece finds what this one did.
     """
     path = machine.path
-    walk, left = arguments[0].cell, arguments[1].poly
-    piece = PIECES.pop(id(path))
+    walk = arguments[0].cell
+    piece, lengths, logs = PIECES.pop(id(path)), table("lengths"), table("length_q8")
     path.prove(result.poly - 1, "a piece has a pixel")
     path.prove(machine.constant(machine.unit.constants["EL_MAX_PIECE"]) - result.poly, "not longer than EL_MAX_PIECE")
-    for name, here in piece.here.items():
-        require((machine.poly(walk, f"{name}_q16") - here).constant == 0, f"{name} is what the last knot was")
-    if not path.decide(left - 2, 1 - left):
-        return
-    path.prove(left - 1 - result.poly, "the knot at its end is covered")
-    require(piece.gone is not None and (piece.gone - result.poly).constant == 0, "the planes are at its end")
+    path.prove(piece.most - result.poly, "the knot at its end is covered")
+    path.prove(piece.asked - piece.at - result.poly, "W was found at its end", zero=True)
+    require(piece.length is not None and (piece.length - result.poly).constant == 0, "over its length")
+    for name, (axis, at, shift, reciprocal, _) in zip("uv", piece.knots, strict=True):
+        require(axis is walk.content[name], f"the knot of {name}")
+        path.prove(at - piece.at - result.poly, "at its end", zero=True)
+        require((shift - machine.poly(walk, "w_shift")).constant == 0, "by W there")
+        require((reciprocal - machine.poly(walk, "reciprocal")).constant == 0, "by W there")
+    i, limit = machine.poly(walk, "length").known, machine.poly(walk, "limit_q8")
+    least = piece.there if piece.falls else piece.here
     if path.decide(result.poly - 2, 1 - result.poly):
-        i = machine.poly(walk, "length").known
-        path.prove(table("lengths")[i] - result.poly, "no longer than the length that was tried")
-        assert piece.least is not None
-        if piece.asked is not None:
-            path.prove(piece.asked - result.poly, "W at its end was asked for", zero=True)
-        path.prove(piece.least - machine.poly(walk, "limit_q8") - table("length_q8")[i], "W is enough for it")
-        steps = piece.steps
-    else:
-        steps = [(machine.poly(walk, f"{name}_step_q16"),) * 2 for name in "uv"]
-    for name, (difference, per_pixel) in zip("uv", steps, strict=True):
-        exact = machine.poly(walk, f"next_{name}_q16") - piece.here[name]
-        require((difference - exact).constant == 0, f"the difference of {name}")
-        require((machine.poly(walk, f"{name}_step_q16") - per_pixel).constant == 0, f"the step of {name}")
+        path.prove(lengths[i] - result.poly, "no longer than the length that was tried")
+        path.prove(least - limit - logs[i], "W is enough for it")
+    after = machine.struct("el_texture_walk", w_dx=machine.poly(walk, "w_dx"), limit_q8=limit)
+    machine.call("set_length", Pointer([after]), machine.exactly("uint32_t", i))
+    for name in ("pixels", "more_q8", "enough_q8"):
+        path.prove(machine.poly(after, name) - machine.poly(walk, name), f"{name} of that length", zero=True)
+    require(i >= piece.falls, "where W falls, one pixel is not tried first")
+    if not piece.falls and i > 0:
+        path.prove(piece.there - limit - logs[i], "W is enough for that length at the next knot")
 
 
 PIECE = Subject(
@@ -450,16 +399,7 @@ PIECE = Subject(
     "el_texture_walk_piece",
     piece_domain,
     piece_check,
-    modular=["el_texture_walk_piece", "piece_length"],
-    contracts={
-        "go_on": gone_on,
-        "find_knot": next_knots,
-        "log2_floor_q8": log_there,
-        "el_multiply_u16": w_there,
-        "reciprocal_of": reciprocal_of,
-        "el_multiply_high_i32_u32": step_contract,
-    },
-    rough=True,
+    contracts={"find_w": w_there, "find_knot": knot_there, "reciprocal_of": reciprocal_of},
 )
 
 
@@ -474,38 +414,99 @@ def covered(machine: Machine) -> tuple[Poly, Poly]:
 
 
 def begin_domain(machine: Machine) -> list[Any]:
-    """A row's first pixel, from which W and U are as at a covered pixel after those that are skipped, if any."""
+    """A row, at a column of which W and U are as at a covered pixel."""
     path = machine.path
-    triangle = machine.struct("el_triangle")
-    perspective = triangle.content["perspective"].content
-    for name in "uv":
-        machine.put(perspective[f"{name}_shift"], path.atom(f"{name}_shift", 0, 27))
+    (never,) = (machine.constant(machine.unit.constants["NEVER_Q8"]),)
+    planes, walk = machine.struct("el_perspective"), machine.struct("el_texture_walk")
     w, u = covered(machine)
     there = {"w": w, "u": u if path.decide(u, -u - 1) else u + 2**64, "v": path.atom("V", 0, 2**64 - 1)}
-    skips = path.choose(path.atom("skips", 0, 1))
-    for name, value in there.items():
-        machine.put(perspective[name].content["value"], path.atom("value", 0, 2**64 - 1) if skips else value)
-        machine.put(perspective[name].content["dx"], path.atom("dx", 0, 2**64 - 1))
-    surface = triangle.content["surface"].content
-    machine.put(surface["uv_error_log2"], path.choose(path.atom("uv_error_log2", 1, 5)))
-    walk = machine.struct("el_texture_walk")
+    x, pixels = machine.number("uint32_t", "x", 0, 4079), machine.number("uint32_t", "pixels", 1, 4080)
+    curved = path.choose(path.atom("curved", 0, 1))
+    for name in there:
+        machine.put(planes.content[name].content["value"], path.atom(f"{name} in column 0", 0, 2**64 - 1))
+    gradients = {"u": path.atom("u'", 0, 2**64 - 1), "v": path.atom("v'", 0, 2**64 - 1)}
+    for name, gradient in gradients.items():
+        machine.put(walk.content[name].content["dx"], gradient)
+    falls = path.choose(path.atom("falls", 0, 1))
+    gradients["w"] = Poly.of(FALLS if falls else GROWS)
+    for name, value in {
+        "w_dx": gradients["w"],
+        "is_curved": curved,
+        "first_length": path.choose(path.atom("first", 0, machine.constant(machine.unit.constants["LENGTHS"]) - 1)),
+        "limit_q8": path.atom("limit", -never, never),
+    }.items():
+        machine.put(walk.content[name], value)
+    asked = iter("wuv")
 
-    def skip(of: Machine, arguments: list[Any]) -> None:
-        """go_on: to there, with whatever was added to W before."""
-        require((arguments[1].poly - skipped.poly).constant == 0, "by the pixels that are skipped")
-        u64 = of.type_named("uint64_t")
-        for name, value in there.items():
-            added = of.poly(walk, name) - of.poly(perspective[name], "value")
-            walk.content[name].content = Number(u64, of.reduce(value + added, u64))
+    def further(of: Machine, arguments: list[Any]) -> Number:
+        """el_multiply_u16: a gradient times x, which leads there."""
+        name = next(asked)
+        require((arguments[0].poly - gradients[name]).constant == 0, f"the gradient of {name}")
+        require((arguments[1].poly - x.poly).constant == 0, "times the columns")
+        turns = of.path.atom("turns", 0, 1)
+        return of.exactly("uint64_t", there[name] - of.poly(planes, name, "value") + turns * 2**64)
 
-    def knots(of: Machine, arguments: list[Any]) -> None:
-        """find_knot: 1 <= W < 2^31 and |U| <= W, as it is proven for."""
+    def found(of: Machine, arguments: list[Any]) -> None:
+        """find_w, and what the knots rely on: 1 <= W < 2^31 and |U| <= W."""
+        require(arguments[1].poly.constant == 0, "W here")
         here = of.poly(walk, "w")
         path.prove(here - WORD, "W >= 1")
         path.prove(2**63 - 1 - here, "W < 2^31")
         path.prove(here - u, "U <= W")
         path.prove(here + u, "-W <= U")
-        next_knots(of, arguments)
+        of.put(walk.content["w_log2_q8"], of.path.atom("log2 W", 0, 32 * 256))
+        of.put(walk.content["w_shift"], of.path.atom("shift", 1, 31))
+        of.put(walk.content["reciprocal"], of.path.atom("reciprocal", 2**31, WORD - 1))
+
+    def limit(of: Machine, _: list[Any]) -> None:
+        of.put(walk.content["limit_q8"], of.path.atom("limit of the row", -never, never))
+
+    machine.contracts = {
+        "el_multiply_u16": further,
+        "find_w": found,
+        "find_limit": limit,
+        "find_first_knot": lambda *_: None,
+    }
+    BEGINS[id(path)] = there
+    return [Pointer([walk]), Pointer([planes]), x, pixels]
+
+
+BEGINS: dict[int, dict[str, Poly]] = {}
+
+
+def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """The values are those there, and the length is as the pieces rely on."""
+    path, walk = machine.path, arguments[0].cell
+    there = BEGINS.pop(id(path))
+    for name in "uv":
+        congruent(machine.poly(walk, name, "value"), there[name], 2**64, f"{name} there")
+    if path.holds(1 - arguments[3].poly):
+        return  # no piece is asked for
+    logs = table("length_q8")
+    i, falls = machine.poly(walk, "length").known, machine.poly(walk, "w_dx").known == FALLS
+    room = machine.poly(walk, "w_log2_q8") - machine.poly(walk, "limit_q8")
+    require(i >= falls, "where W falls, one pixel is not tried first")
+    if i > 0 and not (falls and i == 1):
+        path.prove(room - logs[i], "W is enough for it")
+    if i + 1 < len(logs):
+        path.prove(logs[i + 1] - 1 - room, "and for none that is longer")
+
+
+BEGIN = Subject(FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin"])
+
+
+def start_domain(machine: Machine) -> list[Any]:
+    """Planes with any gradients and shifts."""
+    path = machine.path
+    triangle = machine.struct("el_triangle")
+    perspective = triangle.content["perspective"].content
+    for name in "uv":
+        machine.put(perspective[f"{name}_shift"], path.atom(f"{name}_shift", 0, 27))
+        machine.put(perspective[f"{name}_base_q16"], path.atom(f"{name}_base", -(2**27), 2**27))
+    for name in "uvw":
+        machine.put(perspective[name].content["dx"], path.atom("dx", 0, 2**64 - 1))
+    surface = triangle.content["surface"].content
+    machine.put(surface["uv_error_log2"], path.choose(path.atom("uv_error_log2", 1, 5)))
 
     def log_of_step(of: Machine, arguments: list[Any]) -> Number:
         """log2_ceil_q8: of no less than 16 |W'|."""
@@ -513,34 +514,76 @@ def begin_domain(machine: Machine) -> list[Any]:
         signed = dw if path.holds(STEEP - 1 - dw) else dw - 2**64
         for magnitude in (signed, -signed):
             path.prove(arguments[0].poly * 2**28 - magnitude, "no less than 16 |W'|")
-        log: Number = LOGS["log2_ceil_q8"](of, arguments)
-        return log
+        return log2_ceil(of, arguments)
 
-    machine.contracts = {**BEGIN_CONTRACTS, "go_on": skip, "find_knot": knots, "log2_ceil_q8": log_of_step}
-    skipped = machine.number("int32_t", "skipped", skips, 4080 * skips)
-    return [Pointer([walk]), Pointer([triangle]), skipped]
+    machine.contracts = {"is_steep": steep_contract, "log2_ceil_q8": log_of_step}
+    return [Pointer([machine.struct("el_texture_walk")]), Pointer([triangle])]
 
 
-def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, and the limit is in its range."""
-    path = machine.path
-    limit = machine.poly(arguments[0].cell, "limit_q8")
+def start_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """Each coordinate has its own numbers; three times the limit, but for J, or a limit that is always or never met."""
+    walk, perspective = arguments[0].cell, arguments[1].cell.content["perspective"].content
+    for name in "uv":
+        axis = walk.content[name]
+        require((machine.poly(axis, "dx") - machine.poly(perspective[name], "dx")).constant == 0, "its gradient")
+        require((machine.poly(axis, "base_q16") - machine.poly(perspective[f"{name}_base_q16"])).constant == 0, "base")
+        require((machine.poly(axis, "down") + machine.poly(perspective[f"{name}_shift"])).constant == 30, "its shift")
     (never, reserve) = (machine.constant(machine.unit.constants[n]) for n in ("NEVER_Q8", "ROUNDING_RESERVE_Q8"))
-    path.prove(limit + never, "limit >= -NEVER")
-    path.prove(never - limit, "limit <= NEVER")
-    if "el_texture_walk_begin.curvature" not in machine.locals:
+    if not machine.poly(walk, "is_curved").known:
+        is_flat = machine.path.holds(-machine.poly(perspective["w"], "dx"))
+        require(machine.poly(walk, "limit_q8").known == (-never if is_flat else never), "always or never")
         return
     # J and W' with 4 bits of fraction each, the error in Q16 texels.
-    curvature, w_step = (machine.locals[f"el_texture_walk_begin.{name}"].poly for name in ("curvature", "w_step"))
+    w_step = machine.locals["el_texture_walk_start.w_step"].poly
     error = machine.poly(arguments[1].cell, "surface", "uv_error_log2")
-    exact = curvature + w_step - 256 * (4 + 4 + 16) - 256 * 2 + 256 * error + reserve
-    path.prove(limit * 3 - exact, "the limit is rounded up")
-    path.prove(exact + 2 - limit * 3, "and no more than that")
+    exact = w_step - 256 * (4 + 4 + 16) - 256 * 2 + 256 * error + reserve
+    machine.path.prove(machine.poly(walk, "without_j_q8") - exact, "log2 |W'| - 2 - log2 error", zero=True)
 
 
-BEGIN_CONTRACTS = {"curvature_q8": curvature_contract, "is_steep": steep_contract}
-BEGIN = Subject(
-    FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin", "el_abs_u64"]
+START = Subject(
+    FILE, "el_texture_walk_start", start_domain, start_check, modular=["el_texture_walk_start", "el_abs_u64"]
+)
+
+
+def limit_domain(machine: Machine) -> list[Any]:
+    """W at the row's beginning, and what start leaves."""
+    path = machine.path
+    walk = machine.struct("el_texture_walk")
+    machine.put(walk.content["w"], path.atom("W", WORD, 2**63 - 1))
+    falls = path.choose(path.atom("falls", 0, 1))
+    machine.put(walk.content["w_dx"], path.atom("dw", 2**64 - STEEP + 1, 2**64 - 1) if falls else path.atom("dw", 0, STEEP - 1))
+    most = 64 * 256 + 1 - 256 * (4 + 4 + 16) - 256 * 2 + 256 * 5 + 24
+    machine.put(walk.content["without_j_q8"], path.atom("without J", most - 64 * 256 - 1 - 256 * 4, most))
+    CURVATURES[id(path)] = []
+    return [Pointer([walk])]
+
+
+CURVATURES: dict[int, list[tuple[Any, Poly]]] = {}
+
+
+def curvature_found(machine: Machine, arguments: list[Any]) -> Number:
+    found: Number = curvature_contract(machine, arguments)
+    CURVATURES[id(machine.path)].append((arguments[0].cell, found.poly))
+    return found
+
+
+def limit_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, of the larger J; and the limit is in its range."""
+    path, walk = machine.path, arguments[0].cell
+    limit, without = machine.poly(walk, "limit_q8"), machine.poly(walk, "without_j_q8")
+    (never,) = (machine.constant(machine.unit.constants["NEVER_Q8"]),)
+    path.prove(limit + never, "limit >= -NEVER")
+    path.prove(never - limit, "limit <= NEVER")
+    found = CURVATURES.pop(id(path))
+    for name, (axis, curvature) in zip("uv", found, strict=True):
+        require(axis is walk.content[name], f"the curvature of {name}")
+        path.prove(limit * 3 - curvature - without, "the limit is rounded up")
+    u, v = (curvature for _, curvature in found)
+    path.prove((u if path.decide(u - v, v - u - 1) else v) + without + 2 - limit * 3, "and no more than that")
+
+
+LIMIT = Subject(
+    FILE, "find_limit", limit_domain, limit_check, modular=["find_limit"], contracts={"curvature_q8": curvature_found}
 )
 SUBJECTS = {
     "curvature": CURVATURE,
@@ -549,6 +592,8 @@ SUBJECTS = {
     "step, small code": step(SMALL_CODE),
     "piece": PIECE,
     "begin": BEGIN,
+    "start": START,
+    "limit": LIMIT,
 }
 
 
@@ -566,20 +611,27 @@ def test_the_compiler_agrees(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("curvature", FILE, "plane->dx >> 28", "plane->dx >> 27"),
+        ("curvature", FILE, "axis->dx >> 28", "axis->dx >> 27"),
         ("curvature", FILE, "= el_abs_u64(step_q4) + el_abs_u64(w_step_q4)", "= el_abs_u64(step_q4)"),
         ("curvature", FILE, "2U * ((uint64_t)(uint32_t)w + 1U)", "((uint64_t)(uint32_t)w + 1U)"),
         ("steep", FILE, "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
         ("step", FILE, "477218589U", "477218689U"),
         ("step, small code", FILE, "(uint32_t)length + 1U", "((uint32_t)length + 1U)"),
-        ("piece", FILE, "piece_length(walk, left - 1)", "piece_length(walk, left)"),
-        ("piece", FILE, "(least) >= walk->limit_q8 + length_q8[i])", "(least) >= walk->limit_q8)"),
-        ("piece", FILE, "i >= 0 && room_q8 < length_q8[i]", "i >= 0 && room_q8 < 0"),
-        ("piece", FILE, "walk->next_v_q16 - walk->v_q16", "walk->next_v_q16 - walk->u_q16"),
-        ("begin", FILE, "el_abs_u64(w_step_q4) + 1U", "el_abs_u64(w_step_q4)"),
+        ("piece", FILE, "walk->pixels < most ? walk->pixels : most", "walk->pixels"),
+        ("piece", FILE, "lengths[i] < most ? lengths[i] : most", "lengths[i]"),
+        ("piece", FILE, "walk->w_log2_q8 < walk->enough_q8", "walk->w_log2_q8 < walk->enough_q8 - 1"),
+        ("piece", FILE, "while (i > 0 && walk->w_log2_q8 < walk->limit_q8", "while (i > 0 && walk->w_log2_q8 < -1 + walk->limit_q8"),
+        ("piece", FILE, "find_knot(&walk->v, at + length", "find_knot(&walk->v, at"),
+        ("piece", FILE, "i > 0 ? i : 1", "i"),
+        ("piece", FILE, "more_q8 = walk->limit_q8 + length_q8[i + 1U]", "more_q8 = walk->limit_q8 + length_q8[i]"),
         ("begin", FILE, "+ EL_W_MARGIN_Q32", ""),
-        ("begin", FILE, "* 4096 + 2)", "* 4096 + 1)"),
+        ("begin", FILE, "while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]) {", "while (i > 9) {"),
         ("begin", "raster/texture_walk.h", "(1U << 14)", "(1U << 13)"),
+        ("start", FILE, "el_abs_u64(w_step_q4) + 1U", "el_abs_u64(w_step_q4)"),
+        ("start", FILE, "- 2 * 256 - error_q8", "- error_q8"),
+        ("start", FILE, "is_steep(&p->u) ||", ""),
+        ("limit", FILE, "* 4096 + 2)", "* 4096 + 1)"),
+        ("limit", FILE, "curvature_q8(&walk->v, w", "curvature_q8(&walk->u, w"),
     ],
 )
 def test_the_proof_can_fail(name: str, file: str, old: str, new: str) -> None:

@@ -83,14 +83,14 @@ static uint64_t product_of(const int32_t a[3], const int32_t b[3], unsigned drop
  * of the distance and s the place on the screen, a step e moves its point by (X.e - s D.e) / w, and the largest such step
  * squared is at most max(X.X, Y.Y) + |X.Y| + 2 |s| (|X.D| + |Y.D|) + s.s D.D. Products of rows without 22 bits, times
  * numbers of pixels below 2^11. */
-static uint64_t pixels_per_unit(const el_transform *transform)
+static uint64_t pixels_per_unit(const el_transform *transform, const int32_t rows[3][3])
 {
     enum { DROPPED = 22 };
     const uint64_t w = (transform->size[0] + 1U) / 2U;
     const uint64_t h = (transform->size[1] + 1U) / 2U;
-    const int32_t *const x = transform->rows[0];
-    const int32_t *const y = transform->rows[1];
-    const int32_t *const d = transform->rows[2];
+    const int32_t *const x = rows[0];
+    const int32_t *const y = rows[1];
+    const int32_t *const d = rows[2];
     const uint64_t aside = ((w + h) * AROUND_THE_SCREEN_Q3 >> 3) + 1U;
     const uint64_t aside_squared = ((w * w + h * h) * AROUND_THE_SCREEN_Q3 * AROUND_THE_SCREEN_Q3 >> 6) + 1U;
     const uint64_t xx = product_of(x, x, DROPPED) * w * w;
@@ -108,15 +108,16 @@ static uint64_t pixels_per_unit(const el_transform *transform)
  * sub-pixel and an eighth on each axis. A triangle whose least altitude is five times that keeps its winding:
  * with c for that move and L >= a for longest side and altitude on it, the new doubled area is at least
  * a L - 2c L - 2c (a + 2c), and above 0 for a >= 5c. */
-static void make_cones(el_cluster_view *view, const el_transform *transform)
+static void make_cones(el_cluster_view *view, const el_transform *transform, const int32_t rows[3][3])
 {
-    const int dropped = make_adjugate(transform->rows, view->to_model);
+    const int32_t shift = (int32_t)el_transform_shift(transform);
+    const int dropped = make_adjugate(rows, view->to_model);
     if (dropped < 0) {
         return;
     }
     int64_t determinant = 0; /* without `dropped` bits: three products below 2^58 */
     for (unsigned j = 0; j < 3; j++) {
-        determinant += (int64_t)transform->rows[0][j] * view->to_model[j][0];
+        determinant += (int64_t)rows[0][j] * view->to_model[j][0];
     }
     const uint64_t magnitude = el_abs_u64(determinant);
     const int bits = el_bit_length_u64(magnitude);
@@ -126,24 +127,28 @@ static void make_cones(el_cluster_view *view, const el_transform *transform)
     view->cones = true;
     view->mirrored = determinant < 0;
     view->unit = (uint32_t)(magnitude >> (bits - 31));
-    view->unit_log2 = (int8_t)(bits - 31 - transform->shift);
+    view->unit_log2 = (int8_t)(bits - 31 - shift);
 
     const int32_t one = 256;
     const int32_t area_q8 = log2_floor_q8(transform->size[0]) + log2_floor_q8(transform->size[1]) - 2 * one +
-                            log2_floor_q8(magnitude) + one * (dropped - 3 * transform->shift);
-    const int32_t pixels_q8 = log2_ceil_q8(pixels_per_unit(transform)) - one * transform->shift;
+                            log2_floor_q8(magnitude) + one * (dropped - 3 * shift);
+    const int32_t pixels_q8 = log2_ceil_q8(pixels_per_unit(transform, rows)) - one * shift;
     const int32_t least_altitude_q8 = 556 - one * EL_SUBPIXEL_BITS; /* log2(4.5 / S) */
     view->slack_log2_q8 = least_altitude_q8 + pixels_q8 - area_q8;
 }
 
 void el_cluster_view_make(el_cluster_view *view, const el_transform *transform, bool two_sided)
 {
+    int32_t rows[3][3];
     for (unsigned i = 0; i < 3; i++) {
-        view->reach[i] = length_of(transform->rows[i]);
+        for (unsigned j = 0; j < 3; j++) {
+            rows[i][j] = el_transform_element(transform, i, j);
+        }
+        view->reach[i] = length_of(rows[i]);
     }
     view->cones = false;
     if (!two_sided && !el_transform_is_orthographic(transform)) {
-        make_cones(view, transform);
+        make_cones(view, transform, (const int32_t(*)[3])rows);
     }
 }
 
@@ -203,7 +208,7 @@ el_cluster_verdict el_cluster_look(const el_cluster_view *view, const el_transfo
     /* How far x, y and d of a vertex may be from the centre's: below 2^31 * 2^16, and all of them are rounded down. */
     int64_t reach[3];
     for (unsigned i = 0; i < 3; i++) {
-        reach[i] = (int64_t)(((uint64_t)view->reach[i] * cluster->radius) >> transform->shift) + 2;
+        reach[i] = (int64_t)(((uint64_t)view->reach[i] * cluster->radius) >> el_transform_shift(transform)) + 2;
     }
     const int64_t w_reach = el_transform_is_orthographic(transform) ? 0 : reach[2];
     const int64_t x = centre.x < 0 ? -(int64_t)centre.x : centre.x;

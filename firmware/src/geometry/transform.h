@@ -100,6 +100,25 @@ typedef struct el_transform {
     uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
 } el_transform;
 
+/* An element of a row, per position unit times 2^el_transform_shift. */
+static inline int32_t el_transform_element(const el_transform *transform, unsigned row, unsigned i)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return transform->rows[row].high[i] * (1 << transform->split) + transform->rows[row].low[i];
+#else
+    return transform->rows[row].elements[i];
+#endif
+}
+
+static inline unsigned el_transform_shift(const el_transform *transform)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return (unsigned)transform->split + transform->over;
+#else
+    return transform->shift;
+#endif
+}
+
 static inline bool el_transform_is_orthographic(const el_transform *transform)
 {
     return EL_WITH_ORTHOGRAPHIC && transform->orthographic != 0;

@@ -41,10 +41,10 @@ static inline unsigned leading_zeros(uint32_t x, unsigned near)
     (void)near;
     return (unsigned)__builtin_clz(x);
 #else
-    while (x > 0xFFFFFFFFU >> near) {
+    while (x << near >> near != x) {
         near--;
     }
-    while (x < 0x80000000U >> near) {
+    while (x << near < 0x80000000U) {
         near++;
     }
     return near;
@@ -181,12 +181,12 @@ static void set_length(el_texture_walk *walk, uint32_t i)
 {
     walk->length = i;
     walk->pixels = lengths[i];
-    if ((int64_t)walk->w_dx >= 0) {
-        walk->more_q8 = i + 1U < LENGTHS ? walk->limit_q8 + length_q8[i + 1U] : INT32_MAX;
-        walk->enough_q8 = INT32_MIN;
-    } else {
-        walk->more_q8 = INT32_MAX;
+    walk->more_q8 = INT32_MAX;
+    walk->enough_q8 = INT32_MIN;
+    if ((int64_t)walk->w_dx < 0) {
         walk->enough_q8 = walk->limit_q8 + length_q8[i];
+    } else if (i + 1U < LENGTHS) {
+        walk->more_q8 = walk->limit_q8 + length_q8[i + 1U];
     }
 }
 
