@@ -84,11 +84,8 @@ static el_display_config choose_display(const el_machine_config *config)
 static bool open_renderer(el_machine *machine)
 {
     const el_machine_config *const config = &machine->config;
-    machine->depth_sink = (el_sink){.context = machine,
-                                    .begin = depth_begin,
-                                    .rows = depth_rows,
-                                    .unchanged = depth_unchanged,
-                                    .end = depth_end};
+    machine->depth_sink = (el_sink){
+        .context = machine, .begin = depth_begin, .rows = depth_rows, .unchanged = depth_unchanged, .end = depth_end};
     const el_config renderer_config = {
         .width = config->width,
         .height = config->height,
