@@ -92,7 +92,7 @@ static bool open_renderer(el_machine *machine)
         .band_lines = config->band_lines,
         .background = config->background,
         .uv_error_log2 = config->uv_error_log2,
-        .reuse = config->sparing ? EL_REUSE_BACKGROUND | EL_REUSE_FRAME : 0,
+        .reuse = config->sparing ? EL_REUSES : 0,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
         .sinks = {&machine->depth_sink, config->extra_sink, &machine->display.sink}, /* the last may move pixels */
