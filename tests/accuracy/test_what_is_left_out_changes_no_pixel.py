@@ -1,4 +1,4 @@
-"""`render --sparing` neither draws nor sends what has not changed. After every frame the display shows, and the depths are,
+"""`render --sparing` neither draws nor sends what has not changed. After every frame the display shows, and depths are,
 what comes of drawing and sending everything; and less is drawn and sent.
 """
 
