@@ -70,7 +70,8 @@ static const panel_driver *find_driver(const char *panel)
 
 static el_status start_tft(el_display *display, const el_display_config *config, const el_tft_model *model)
 {
-    const size_t shown_bytes = config->sparing ? EL_TFT_SHOWN_BYTES((size_t)display->width, display->height) : 0;
+    const size_t shown_bytes =
+        EL_WITH_REUSE && config->sparing ? EL_TFT_SHOWN_BYTES((size_t)display->width, display->height) : 0;
     if (shown_bytes > 0) {
         display->memory = malloc(shown_bytes);
         if (display->memory == NULL) {

@@ -93,7 +93,7 @@ static bool open_renderer(el_machine *machine)
         .background = config->background,
         .uv_error_log2 = config->uv_error_log2,
         .depth_prepass = config->depth_prepass,
-        .reuse = config->sparing ? EL_REUSE_BACKGROUND | EL_REUSE_FRAME : 0,
+        .reuse = config->sparing ? EL_REUSES : 0,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
         .workers = machine->threads != NULL ? el_threads_workers(machine->threads) : NULL,

@@ -1,5 +1,5 @@
-"""`render --sparing` neither draws nor sends what has not changed. After every frame the display shows what it shows when
-everything is drawn and sent, the depths are the same too; and less is drawn and sent.
+"""`render --sparing` neither draws nor sends what has not changed. After every frame the display shows, and depths are,
+what comes of drawing and sending everything; and less is drawn and sent.
 """
 
 from __future__ import annotations

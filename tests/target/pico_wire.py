@@ -3,8 +3,9 @@
     PYTHONPATH=host python tests/target/pico_wire.py [--record]
 
 For each scene of the demo: cycles of a frame; those in which the core slept at the ends of bands, because the DMA still
-had the band before; and those in which the wire was in use. A frame whose drawing is hidden takes the wire's time and no
-more. Three courses: every frame sent whole; only what changes (EDGELINE_SPARING); the same with the scene standing still.
+had the band before; and those in which the wire was in use. A frame whose drawing is hidden takes the wire's time and
+no more. Three courses: every frame sent whole; only what changes (EDGELINE_SPARING); the same with the scene standing
+still.
 
 The figures are rp2040js' estimate with memory that never waits: a Pico's flash has a cache of 16 KB, whose misses come
 to them. --record writes them to tests/bench/results/pico.json, which the test compares with.

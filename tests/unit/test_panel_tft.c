@@ -339,6 +339,8 @@ static void test_byte_order_for_each_kind_of_bus(void)
 
 /* --- What the display shows already -------------------------------------------------------------------------------- */
 
+#if EL_WITH_REUSE
+
 enum { GLASS_WIDTH = 320, GLASS_HEIGHT = 24 };
 
 static uint16_t picture[GLASS_HEIGHT][GLASS_WIDTH];
@@ -510,6 +512,20 @@ static void test_too_little_memory_for_hashes_is_refused(void)
     panel_bus_expect("");
 }
 
+#else
+
+static void test_hashes_are_refused_where_they_are_left_out(void)
+{
+    static uint32_t shown[EL_TFT_SHOWN_BYTES(128, 160) / 4];
+    const el_tft_config config = {
+        .bus = &panel_bus_functions, .model = &el_st7735, .shown = shown, .shown_bytes = sizeof shown};
+    panel_bus_forget();
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_ARGUMENT, el_tft_init(&panel, &config));
+    panel_bus_expect("");
+}
+
+#endif
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -528,6 +544,7 @@ int main(void)
     RUN_TEST(test_deferred_transfers_release_their_own_band);
     RUN_TEST(test_a_bus_without_wait);
     RUN_TEST(test_byte_order_for_each_kind_of_bus);
+#if EL_WITH_REUSE
     RUN_TEST(test_what_is_shown_is_not_sent_but_four_lines_in_turn);
     RUN_TEST(test_rectangles_of_what_has_changed_are_sent);
     RUN_TEST(test_the_pixels_that_are_sent_are_those_that_changed);
@@ -535,5 +552,8 @@ int main(void)
     RUN_TEST(test_a_display_that_may_show_anything_gets_all);
     RUN_TEST(test_without_hashes_what_is_unchanged_is_not_sent);
     RUN_TEST(test_too_little_memory_for_hashes_is_refused);
+#else
+    RUN_TEST(test_hashes_are_refused_where_they_are_left_out);
+#endif
     return UNITY_END();
 }

@@ -169,6 +169,8 @@ static void test_frames_that_are_not_sent_change_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(1, get_u16(host.frame_end + 20));
 }
 
+#if EL_WITH_REUSE
+
 /* Lines that have not changed are left to the stream while it sends nothing; a frame that it sends it sees whole, and what
  * was changed meanwhile arrives. */
 static void test_what_is_unchanged_is_left_out_of_frames_that_are_not_sent(void)
@@ -191,6 +193,8 @@ static void test_what_is_unchanged_is_left_out_of_frames_that_are_not_sent(void)
     TEST_ASSERT_FALSE(dev.sink.unchanged(dev.sink.context, 8, 8));
     dev.sink.end(dev.sink.context, &stats);
 }
+
+#endif
 
 /* Equal lines share packets up to the largest: 100 flat lines of one band are one packet, noise fills each. */
 static void test_lines_share_packets(void)
@@ -242,7 +246,9 @@ int main(void)
     RUN_TEST(test_the_first_frame_has_all_lines_and_later_ones_what_changed);
     RUN_TEST(test_every_line_is_refreshed);
     RUN_TEST(test_frames_that_are_not_sent_change_nothing);
+#if EL_WITH_REUSE
     RUN_TEST(test_what_is_unchanged_is_left_out_of_frames_that_are_not_sent);
+#endif
     RUN_TEST(test_lines_share_packets);
     RUN_TEST(test_one_way);
     return UNITY_END();

@@ -9,7 +9,7 @@ el_status el_demo_panel_start(const el_bus *bus, el_demo_panel *panel)
 {
     static el_tft tft;
     el_tft_config config = {.bus = bus, .model = &EL_DEMO_MODEL, .rotation = EL_DEMO_ROTATION};
-#if EL_DEMO_SPARING
+#if EL_DEMO_SPARING && EL_WITH_REUSE
     static uint32_t shown[EL_TFT_SHOWN_BYTES(240, 320) / sizeof(uint32_t)]; /* the largest, upright; lying it is less */
     config.shown = shown;
     config.shown_bytes = sizeof shown;

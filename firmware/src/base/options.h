@@ -95,8 +95,8 @@
 #define EL_WITH_WORKERS (!EL_SMALL_CODE)
 #endif
 
-/* What the frame before has already is left out (el_config.reuse). Without, which is what small code begins with: el_init
- * refuses it with EL_ERROR_SIZE. */
+/* What the frame before has already is left out: el_config.reuse, el_tft_config.shown. Without, which is what small code
+ * begins with: el_init refuses the one with EL_ERROR_SIZE, el_tft_init the other with EL_ERROR_ARGUMENT. */
 #ifndef EL_WITH_REUSE
 #define EL_WITH_REUSE (!EL_SMALL_CODE)
 #endif

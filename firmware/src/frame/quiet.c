@@ -115,6 +115,7 @@ bool el_quiet_is_unchanged(el_renderer *renderer)
         return false;
     }
     quiet->takers = ask(renderer, quiet->takers, 0, renderer->config.height);
+    quiet->band_takers = quiet->takers;
     if (quiet->takers != 0) {
         return false;
     }
@@ -163,6 +164,7 @@ void el_quiet_begin(el_renderer *renderer)
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         quiet->takers = (uint8_t)(quiet->takers | (config->sinks[i] != NULL ? 1U : 0U) << i);
     }
+    quiet->band_takers = quiet->takers;
     quiet->looks = (reuse_of(renderer) & EL_REUSE_FRAME) != 0;
     if (quiet->looks) {
         const uint32_t settings = hash_pair(config->background, config->uv_error_log2, config->shading_off);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/dither.h"
+#include "base/options.h"
 
 /* Whether lines share bytes: the picture's y runs along the pixels of a byte. */
 static bool lines_share(const el_oled *panel)
@@ -114,7 +115,7 @@ static void flush(el_oled *panel)
         /* Below what was sent before, so each run needs its window. */
         const unsigned glass_units = (unsigned)el_oled_height(panel) >> panel->lines_log2;
         set_units(panel, glass_units - end, glass_units - panel->unit);
-    } else if (panel->moved) {
+    } else if (EL_WITH_REUSE && panel->moved) {
         set_units(panel, panel->unit, frame_units(panel));
     }
     panel->moved = false;
@@ -262,7 +263,12 @@ static void wait(void *context)
 
 el_sink el_oled_sink(el_oled *panel)
 {
-    return (el_sink){.context = panel, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
+    return (el_sink){.context = panel,
+                     .begin = begin,
+                     .rows = rows,
+                     .unchanged = EL_WITH_REUSE ? unchanged : NULL,
+                     .end = end,
+                     .wait = wait};
 }
 
 /* --- Start -------------------------------------------------------------------------------------------------------- */

@@ -2,6 +2,8 @@
 
 #include <stddef.h>
 
+#include "base/options.h"
+
 /* Commands: data sheets of ILI9341 (V1.11), ST7789V (V1.3) and ST7735 (V1.7), which agree about these. */
 enum {
     CMD_SLEEP_OUT = 0x11,      /* 8.2.12; 9.1.12; 10.1.11 */
@@ -90,7 +92,7 @@ static bool is_possible(const el_tft_config *config)
     const el_bus *const bus = config->bus;
     return bus != NULL && bus->reset != NULL && bus->command != NULL && bus->delay_ms != NULL &&
            (bus->pixels != NULL || bus->bytes != NULL) && config->model != NULL &&
-           el_panel_has_rotation(config->rotation) &&
+           el_panel_has_rotation(config->rotation) && (EL_WITH_REUSE || config->shown == NULL) &&
            (config->byte_order == EL_HIGH_BYTE_FIRST ||
             (config->byte_order == EL_LOW_BYTE_FIRST && config->model->low_byte_first != NULL));
 }
@@ -227,14 +229,14 @@ static void find_due(const el_tft *panel, unsigned y, unsigned lines, unsigned *
 /* What of a band is sent. */
 static el_shown_part find_part(const el_tft *panel, const el_band *band)
 {
-    el_shown_part part = {0};
-    unsigned top = 0;
-    unsigned bottom = band->lines;
-    if (panel->config.shown != NULL) {
-        uint32_t *const hashes = panel->config.shown + (size_t)band->y * EL_SHOWN_SEGMENTS(band->width);
-        part = el_shown_update(hashes, band->pixels, band->width, band->lines);
-        find_due(panel, band->y, band->lines, &top, &bottom);
+    if (!EL_WITH_REUSE || panel->config.shown == NULL) {
+        return (el_shown_part){.right = band->width, .bottom = band->lines};
     }
+    uint32_t *const hashes = panel->config.shown + (size_t)band->y * EL_SHOWN_SEGMENTS(band->width);
+    el_shown_part part = el_shown_update(hashes, band->pixels, band->width, band->lines);
+    unsigned top;
+    unsigned bottom;
+    find_due(panel, band->y, band->lines, &top, &bottom);
     if (top < bottom) {
         el_shown_add_lines(&part, band->width, top, bottom);
     }
@@ -275,7 +277,7 @@ static void rows(void *context, el_band *band, unsigned slot)
     struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
     panel->next_loan ^= 1U;
     *loan = (struct el_tft_loan){.band = band, .slot = slot};
-    uint16_t *const pixels = el_shown_pack(band->pixels, band->width, &part);
+    uint16_t *const pixels = EL_WITH_REUSE ? el_shown_pack(band->pixels, band->width, &part) : band->pixels;
     if (panel->swap) {
         swap_bytes(pixels, count);
     }
@@ -319,5 +321,10 @@ static void wait(void *context)
 
 el_sink el_tft_sink(el_tft *panel)
 {
-    return (el_sink){.context = panel, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
+    return (el_sink){.context = panel,
+                     .begin = begin,
+                     .rows = rows,
+                     .unchanged = EL_WITH_REUSE ? unchanged : NULL,
+                     .end = end,
+                     .wait = wait};
 }

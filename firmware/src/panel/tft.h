@@ -111,8 +111,8 @@ typedef struct el_tft {
 
 /* Resets and initialises the controller; takes about 250 ms. `config` is copied.
  * EL_ERROR_ARGUMENT: no bus, no model, a bus that can send neither words nor bytes, a rotation or byte order that does
- * not exist, or a byte order that the controller cannot take. EL_ERROR_MEMORY: `shown` is too small. Then nothing was
- * sent. */
+ * not exist, a byte order that the controller cannot take, or `shown` without EL_WITH_REUSE. EL_ERROR_MEMORY: `shown` is
+ * too small. Then nothing was sent. */
 el_status el_tft_init(el_tft *panel, const el_tft_config *config);
 
 /* Says that the display may show anything: something else was sent to it, or it had no power. The next frame is sent

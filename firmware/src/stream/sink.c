@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/crc32.h"
+#include "base/options.h"
 #include "stream/changes.h"
 #include "stream/parts.h"
 
@@ -266,5 +267,10 @@ static void wait(void *context)
 
 el_sink el_stream_sink(el_stream *stream)
 {
-    return (el_sink){.context = stream, .begin = begin, .rows = rows, .unchanged = unchanged, .end = end, .wait = wait};
+    return (el_sink){.context = stream,
+                     .begin = begin,
+                     .rows = rows,
+                     .unchanged = EL_WITH_REUSE ? unchanged : NULL,
+                     .end = end,
+                     .wait = wait};
 }
