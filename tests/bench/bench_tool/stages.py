@@ -36,6 +36,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/*.h", "*", SHARED),
     ("firmware/src/base/*.c", "*", SHARED),
     ("firmware/src/geometry/transform.c", "*", "vertex"),
+    ("firmware/src/geometry/vertex.c", "*", "vertex"),
     ("firmware/src/geometry/pose.c", "*", "vertex"),
     ("firmware/src/geometry/clip.c", "*", "clip"),
     ("firmware/src/geometry/cull.c", "*", "bin"),
