@@ -388,8 +388,9 @@ class Machine(Arithmetic):
             value = result.value
             if isinstance(value, Number):
                 value = self.convert(value, returned, function.decl)
-        self.functions.pop()
-        self.scopes = outer
+        finally:
+            self.functions.pop()
+            self.scopes = outer
         return value
 
     def declared(self, node: c_ast.Decl) -> Cell:

@@ -62,7 +62,7 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
     "raster/fill.c": ["raster/spans.c"],
-    "raster/fill_texture.c": ["raster/spans.c", "raster/texture_walk.c", *DIVISION],
+    "raster/fill_texture.c": ["raster/spans.c", "raster/depth_row.c", "raster/texture_walk.c", *DIVISION],
     "raster/gather.c": ["geometry/transform.c", "geometry/pose.c", "base/fixed.c", "base/angle.c", *DIVISION],
 }
 

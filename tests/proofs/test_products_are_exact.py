@@ -187,7 +187,12 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_multiply_u16", FIXED_H, "* b + (middle >> 16)", "* b + (middle >> 17)"),
         ("el_multiply_u64", FIXED_H, "b < 0 ? 0 - product", "b < -1 ? 0 - product"),
         ("el_product_u64", FIXED_H, "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
-        ("el_product_u64", FIXED_H, "uint32_t high = a_high * b_high + (first >> 16)", "uint32_t high = a_high * b_high"),
+        (
+            "el_product_u64",
+            FIXED_H,
+            "uint32_t high = a_high * b_high + (first >> 16)",
+            "uint32_t high = a_high * b_high",
+        ),
         ("el_product_u32_u16", FIXED_H, "(a >> 16) * b + (low >> 16)", "(a >> 16) * b"),
         ("el_product_high_u32", FIXED_H, "(el_product_u64(a, b) >> 32)", "(el_product_u64(a, b) >> 33)"),
         ("el_product_i32", FIXED_H, "a_low * b_high + (int32_t)((uint32_t)first & 0xFFFFU)", "a_low * b_high + first"),
