@@ -37,7 +37,7 @@ from c_execution import Machine as AnyMachine
 from c_source import parse
 from contracts import MOST_KNOT, PLANE_ERROR
 from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, congruent
-from symbolic import Fact, Infeasible, Path, prove_over_reals, require
+from symbolic import Fact, Path, prove_over_reals, require
 
 FILE = "raster/texture_walk.c"
 STEP_ERROR = 1.25  # units of 2^-16 texel
