@@ -66,8 +66,11 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
-    "raster/fill.c": ["raster/spans.c", "raster/fill_texture.c", "raster/texture_walk.c", *DIVISION],
-    "raster/fill_texture.c": ["raster/spans.c", "raster/texture_walk.c", *DIVISION],
+    "raster/fill.c": [
+        *("raster/spans.c", "raster/fill_texture.c", "raster/depth_row.c", "raster/texture_walk.c"),
+        *DIVISION,
+    ],
+    "raster/fill_texture.c": ["raster/spans.c", "raster/depth_row.c", "raster/texture_walk.c", *DIVISION],
     "raster/gather.c": ["geometry/vertex.c", "base/fixed.c", *DIVISION],
 }
 

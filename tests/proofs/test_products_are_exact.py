@@ -198,7 +198,12 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_multiply_u16", FIXED_H, "(uint64_t)middle << 16", "(uint64_t)middle << 17"),
         ("el_multiply_u64", FIXED_H, "b < 0 ? 0 - product", "b < -1 ? 0 - product"),
         ("el_product_u64", FIXED_H, "a_low * b_high + (first & 0xFFFFU)", "a_low * b_high + first"),
-        ("el_product_u64", FIXED_H, "uint32_t high = a_high * b_high + (first >> 16)", "uint32_t high = a_high * b_high"),
+        (
+            "el_product_u64",
+            FIXED_H,
+            "uint32_t high = a_high * b_high + (first >> 16)",
+            "uint32_t high = a_high * b_high",
+        ),
         ("el_product_u32_u16", FIXED_H, "(a >> 16) * b + (low >> 16)", "(a >> 16) * b"),
         ("el_product_near_u32", FIXED_H, "((a_high * (b & 0xFFFFU)) >> 16) + ", ""),
         ("el_product_near_u32", FIXED_H, "(((a & 0xFFFFU) * b_high) >> 16)", "(((a & 0xFFFFU) * b_high) >> 15)"),

@@ -378,7 +378,12 @@ def test_the_compiler_agrees(name: str) -> None:
         ("leading zeros", FILE, "x << near >> near != x", "x << near >> near == 0"),
         ("find W", FILE, "el_reciprocal_near(normalised)", "el_reciprocal_near(normalised | 1U)"),
         ("find W", FILE, "upper_word(w, shift)", "upper_word(w, walk->w_shift)"),
-        ("find knot", FILE, "axis->value + el_multiply_u16(axis->dx, pixels)", "axis->value - el_multiply_u16(axis->dx, pixels)"),
+        (
+            "find knot",
+            FILE,
+            "axis->value + el_multiply_u16(axis->dx, pixels)",
+            "axis->value - el_multiply_u16(axis->dx, pixels)",
+        ),
         ("find knot", FILE, "to_q16 - from_q16, step", "from_q16 - to_q16, step"),
     ],
 )

@@ -37,7 +37,7 @@ from c_execution import Machine as AnyMachine
 from c_source import parse
 from contracts import MOST_KNOT, PLANE_ERROR
 from proof import SMALL_CODE, Fault, Machine, Number, Pointer, Poly, Subject, congruent
-from symbolic import Fact, Infeasible, Path, prove_over_reals, require
+from symbolic import Fact, Path, prove_over_reals, require
 
 FILE = "raster/texture_walk.c"
 STEP_ERROR = 1.25  # units of 2^-16 texel
@@ -221,6 +221,7 @@ def curvature_domain(machine: Machine) -> list[Any]:
     signs = [0 if path.holds(of) else 2**64 for of in (step, exact_u)]
     axis = machine.struct("el_texture_axis", value=exact_u + signs[1], dx=step + signs[0])
     machine.put(axis.content["down"], path.atom("down", 3, 30))
+    machine.put(axis.content["curvature_shift"], path.atom("near", 0, 31))
     return [Pointer([axis]), machine.exactly("int32_t", w), machine.exactly("int32_t", w_step)]
 
 
@@ -307,8 +308,10 @@ def any_walk(machine: Machine, falls: int, length: int) -> Any:
 
 
 def piece_domain(machine: Machine) -> list[Any]:
-    """Where W grows, it is enough at the last knot for the length that there is, or that is one pixel: so begin leaves it,
-    and each piece. Where W falls, one pixel is never tried first."""
+    """Where W grows, it is enough at the last knot for the length that there is, or that is one pixel.
+
+    So begin leaves it, and each piece. Where W falls, one pixel is never tried first.
+    """
     path = machine.path
     count = machine.constant(machine.unit.constants["LENGTHS"])
     falls = path.choose(path.atom("falls", 0, 1))
@@ -533,6 +536,9 @@ def start_check(machine: Machine, arguments: list[Any], _: Any) -> None:
         is_flat = machine.path.holds(-machine.poly(perspective["w"], "dx"))
         require(machine.poly(walk, "limit_q8").known == (-never if is_flat else never), "always or never")
         return
+    for name in "uvw":
+        dx, path = machine.poly(perspective[name], "dx"), machine.path
+        require(path.holds(STEEP - 1 - dx) or path.holds(dx - 2**64 + STEEP - 1), "no gradient is steep")
     # J and W' with 4 bits of fraction each, the error in Q16 texels.
     w_step = machine.locals["el_texture_walk_start.w_step"].poly
     error = machine.poly(arguments[1].cell, "surface", "uv_error_log2")
@@ -551,7 +557,8 @@ def limit_domain(machine: Machine) -> list[Any]:
     walk = machine.struct("el_texture_walk")
     machine.put(walk.content["w"], path.atom("W", WORD, 2**63 - 1))
     falls = path.choose(path.atom("falls", 0, 1))
-    machine.put(walk.content["w_dx"], path.atom("dw", 2**64 - STEEP + 1, 2**64 - 1) if falls else path.atom("dw", 0, STEEP - 1))
+    least, most = (2**64 - STEEP + 1, 2**64 - 1) if falls else (0, STEEP - 1)
+    machine.put(walk.content["w_dx"], path.atom("dw", least, most))
     most = 64 * 256 + 1 - 256 * (4 + 4 + 16) - 256 * 2 + 256 * 5 + 24
     machine.put(walk.content["without_j_q8"], path.atom("without J", most - 64 * 256 - 1 - 256 * 4, most))
     CURVATURES[id(path)] = []
@@ -568,7 +575,7 @@ def curvature_found(machine: Machine, arguments: list[Any]) -> Number:
 
 
 def limit_check(machine: Machine, arguments: list[Any], _: Any) -> None:
-    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, of the larger J; and the limit is in its range."""
+    """3 limit >= 256 log2 |J W'| - 2 * 256 - 256 log2 error + reserve, of the larger J; the limit is in its range."""
     path, walk = machine.path, arguments[0].cell
     limit, without = machine.poly(walk, "limit_q8"), machine.poly(walk, "without_j_q8")
     (never,) = (machine.constant(machine.unit.constants["NEVER_Q8"]),)
@@ -605,7 +612,7 @@ def test_all_values(name: str) -> None:
 @pytest.mark.parametrize("name", ["curvature", "steep", "step"])
 def test_the_compiler_agrees(name: str) -> None:
     subject = SUBJECTS[name]
-    Subject(FILE, subject.function, subject.domain, modular=subject.modular).agree(count=200)
+    Subject(FILE, subject.function, subject.domain, modular=[*subject.modular, "leading_zeros"]).agree(count=200)
 
 
 @pytest.mark.parametrize(
@@ -616,11 +623,11 @@ def test_the_compiler_agrees(name: str) -> None:
         ("curvature", FILE, "2U * ((uint64_t)(uint32_t)w + 1U)", "((uint64_t)(uint32_t)w + 1U)"),
         ("steep", FILE, "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
         ("step", FILE, "477218589U", "477218689U"),
-        ("step, small code", FILE, "(uint32_t)length + 1U", "((uint32_t)length + 1U)"),
+        ("step, small code", FILE, "0xFFFFFFFFU / length + 1U", "0xFFFFFFFFU / (length + 1U)"),
         ("piece", FILE, "walk->pixels < most ? walk->pixels : most", "walk->pixels"),
         ("piece", FILE, "lengths[i] < most ? lengths[i] : most", "lengths[i]"),
         ("piece", FILE, "walk->w_log2_q8 < walk->enough_q8", "walk->w_log2_q8 < walk->enough_q8 - 1"),
-        ("piece", FILE, "while (i > 0 && walk->w_log2_q8 < walk->limit_q8", "while (i > 0 && walk->w_log2_q8 < -1 + walk->limit_q8"),
+        ("piece", FILE, "} while (i > 0 && walk->w_log2_q8", "} while (i > 0 && walk->w_log2_q8 + 1"),
         ("piece", FILE, "find_knot(&walk->v, at + length", "find_knot(&walk->v, at"),
         ("piece", FILE, "i > 0 ? i : 1", "i"),
         ("piece", FILE, "more_q8 = walk->limit_q8 + length_q8[i + 1U]", "more_q8 = walk->limit_q8 + length_q8[i]"),
@@ -629,7 +636,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("begin", "raster/texture_walk.h", "(1U << 14)", "(1U << 13)"),
         ("start", FILE, "el_abs_u64(w_step_q4) + 1U", "el_abs_u64(w_step_q4)"),
         ("start", FILE, "- 2 * 256 - error_q8", "- error_q8"),
-        ("start", FILE, "is_steep(&p->u) ||", ""),
+        ("start", FILE, "is_steep(&p->u) || ", ""),
         ("limit", FILE, "* 4096 + 2)", "* 4096 + 1)"),
         ("limit", FILE, "curvature_q8(&walk->v, w", "curvature_q8(&walk->u, w"),
     ],

@@ -160,24 +160,8 @@ static EL_SPECIALISED void draw_last(brush *b, uint16_t *row, uint32_t x, unsign
     }
 }
 
-/* A span all of which is seen, in pieces along which texture coordinates are linear. */
-static EL_SPECIALISED void draw_span(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
-                                     unsigned kind, draw_pixels *draw)
-{
-    const uint32_t last = x_end - 1U;
-    uint32_t at = 0;
-    el_texture_walk_begin(&b->walk, planes, x, x_end - x);
-    while (x < last) {
-        const uint32_t length = el_texture_walk_piece(&b->walk, at, last - x);
-        draw_part(b, row, x, 0, length, kind, draw);
-        x += length;
-        at += length;
-    }
-    draw_last(b, row, last, kind, draw);
-}
-
-/* A span of which the first `seen` pixels are seen, and then what `depth` says. The same pieces are made, up to the last
- * pixel that is seen. */
+/* A span of which the first `seen` pixels are seen, and then what `depth` says, in pieces along which texture coordinates
+ * are linear: the same pieces as if all were seen, up to the last pixel that is. */
 static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
                                      uint32_t seen, el_depth_row *depth, unsigned kind, draw_pixels *draw)
 {
@@ -200,7 +184,7 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
             const uint32_t end = run_end < piece_end ? run_end : piece_end;
             draw_part(b, row, run, run - x, end - run, kind, draw);
             run = end;
-            if (run == run_end) {
+            if (run == run_end && run < x_end) {
                 run += el_depth_row_skip(depth);
                 run_end = run + el_depth_row_take(depth);
             }
@@ -213,6 +197,26 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
     }
 }
 
+/* A span all of which is seen. */
+static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
+                                    unsigned kind, draw_pixels *draw)
+{
+    if (EL_SMALL_CODE) {
+        draw_seen(b, planes, row, x, x_end, x_end - x, NULL, kind, draw);
+        return;
+    }
+    const uint32_t last = x_end - 1U;
+    uint32_t at = 0;
+    el_texture_walk_begin(&b->walk, planes, x, x_end - x);
+    while (x < last) {
+        const uint32_t length = el_texture_walk_piece(&b->walk, at, last - x);
+        draw_part(b, row, x, 0, length, kind, draw);
+        x += length;
+        at += length;
+    }
+    draw_last(b, row, last, kind, draw);
+}
+
 static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, uint16_t *row, uint16_t *depth_row,
                                        uint32_t x, uint32_t x_end, unsigned kind, draw_pixels *draw)
 {
@@ -220,8 +224,8 @@ static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, u
     el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                        b->slopes.per_column.z);
     const uint32_t seen = el_depth_row_take(&depth);
-    if (seen == x_end - x) {
-        draw_span(b, planes, row, x, x_end, kind, draw);
+    if (!EL_SMALL_CODE && seen == x_end - x) {
+        draw_all(b, planes, row, x, x_end, kind, draw);
     } else {
         draw_seen(b, planes, row, x, x_end, seen, &depth, kind, draw);
     }
@@ -232,7 +236,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
 {
     brush b;
     b.source = source_of(triangle->surface.texture);
-    b.packing = packing_of(triangle->surface.texture);
+    if (!EL_SMALL_CODE) {
+        b.packing = packing_of(triangle->surface.texture);
+    }
     b.y = (uint32_t)triangle->y;
     b.kind = kind;
     el_texture_walk_start(&b.walk, triangle);
@@ -250,7 +256,7 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
         } else if ((kind & EL_FILL_DEPTH) != 0) {
             draw_tested(&b, planes, row, cursor.row, x, x_end, kind, draw);
         } else {
-            draw_span(&b, planes, row, x, x_end, kind, draw);
+            draw_all(&b, planes, row, x, x_end, kind, draw);
         }
         el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
         el_perspective_next_row(&triangle->perspective);
@@ -262,14 +268,14 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
 }
 
 #if EL_SMALL_CODE
-static void draw_all(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count)
+static void draw_kind(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count)
 {
     draw_any(b, colour, x, skipped, count, b->kind);
 }
 
 int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
-    return fill(triangle, target, stats, kind, draw_all);
+    return fill(triangle, target, stats, kind, draw_kind);
 }
 #else
 /* A function of its own for the pixels of each kind, and for each kind with and without depth. */
