@@ -99,6 +99,32 @@ static el_status newell_draw(uint32_t frame, el_renderer *renderer)
     return draw(renderer, &newell, &material);
 }
 
+/* From near, so that most of it is beside the view: with its clusters, and without. */
+static void near_camera(uint32_t frame, el_camera *camera)
+{
+    static const int32_t up_q16[3] = {0, EL_UNIT_Q16, 0};
+    int32_t target_q16[3];
+    int32_t eye_q16[3];
+    newell_camera(frame, camera);
+    for (unsigned i = 0; i < 3; i++) {
+        target_q16[i] = to_q16(&newell, newell.centre[i]) + (i == 0 ? to_q16(&newell, newell.radius) / 2 : 0);
+        eye_q16[i] = target_q16[i] + to_q16(&newell, newell.radius) * (i == 2 ? 2 : 1) / 5;
+    }
+    camera->near_q16 /= 32;
+    (void)el_camera_look_at(camera, eye_q16, target_q16, up_q16);
+}
+
+static el_status newell_whole_draw(uint32_t frame, el_renderer *renderer)
+{
+    static const el_material material = {.shading = EL_SHADE_GOURAUD, .colour = {226, 146, 74}, .light = &key_light};
+    static el_mesh whole;
+    whole = newell;
+    whole.clusters = NULL;
+    whole.cluster_count = 0;
+    (void)frame;
+    return draw(renderer, &whole, &material);
+}
+
 #define NAVY 0x10A3
 
 const el_scene model_scenes[] = {
@@ -106,6 +132,9 @@ const el_scene model_scenes[] = {
     {"model-suzanne", "lit, Gouraud", NAVY, suzanne_camera, suzanne_draw, NULL},
     {"model-beetle", "an open surface, both sides, lit, flat", NAVY, beetle_camera, beetle_draw, NULL},
     {"model-teapot", "6,320 small triangles, lit, Gouraud", NAVY, newell_camera, newell_draw, NULL},
+    {"model-teapot-whole", "the same without clusters", NAVY, newell_camera, newell_whole_draw, NULL},
+    {"model-near", "the teapot, most of it beside the view", NAVY, near_camera, newell_draw, NULL},
+    {"model-near-whole", "the same without clusters", NAVY, near_camera, newell_whole_draw, NULL},
 };
 const size_t model_scene_count = sizeof model_scenes / sizeof model_scenes[0];
 
