@@ -21,8 +21,8 @@ def demo_headers() -> dict[str, str]:
 
 
 def bench_headers(scenes: Path, clusters: bool = False) -> dict[str, str]:
-    """The headers of the benchmark; in the order of clusters if they shall have some. Raises EdgelineError when `scenes`
-    cannot be read."""
+    """The headers of the benchmark; in the order of clusters if they shall have some. Raises EdgelineError when
+    `scenes` cannot be read."""
     made_by = f"Made by firmware/apps/make_meshes.py --bench{' --clusters' if clusters else ''}; do not edit."
     meshes_of = bench.all_scenes(bench.load(scenes))
     if clusters:
