@@ -60,9 +60,11 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
         .dx2 = x_of(&bottom) - x_of(&top),
         .dy2 = y_of(&bottom) - y_of(&top),
     };
-    const uint32_t most = (uint32_t)target->width * EL_SUBPIXELS;
-    if (y_begin >= y_end || !el_shape_is_small(&shape) || (uint32_t)x_of(&top) > most ||
-        (uint32_t)x_of(&middle) > most || (uint32_t)x_of(&bottom) > most) {
+    const int32_t x_least = el_min_i32(x_of(&top), el_min_i32(x_of(&middle), x_of(&bottom)));
+    const int32_t x_most = el_max_i32(x_of(&top), el_max_i32(x_of(&middle), x_of(&bottom)));
+    /* el_shape_is_small, by the box that is asked for here besides. */
+    if (y_begin >= y_end || shape.dy2 > EL_EDGE_SHORT || x_most - x_least > EL_EDGE_NARROW || x_least < 0 ||
+        x_most > target->width * EL_SUBPIXELS) {
         return false;
     }
     const int32_t area = el_small_area(&shape);
@@ -88,74 +90,71 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
     const int32_t y_middle = el_first_centre(y_of(&middle));
     const bool short_is_left = area < 0;
     const el_edge_q20 straight = edge_between(&top, &bottom, y_begin);
-    el_edge_q20 bent;
-    int32_t y_part = y_stop; /* where the part ends that is drawn */
-    bool is_lower = true;
+    el_edge_q20 bent = straight;
+    el_edge_q20 lower = straight;
+    int32_t y_bend = y_stop; /* where the other edge takes the bent side's place, if it does in these rows */
+    if (y_middle < y_end) {
+        lower = edge_between(&middle, &bottom, el_max_i32(y_begin, y_middle));
+        bent = lower;
+    }
     if (y_begin < y_middle) {
         bent = edge_between(&top, &middle, y_begin);
-        is_lower = y_middle >= y_end;
-        y_part = el_min_i32(y_middle, y_stop);
-    } else {
-        bent = edge_between(&middle, &bottom, y_begin);
+        y_bend = el_min_i32(y_middle, y_stop);
     }
     el_edge_q20 left = short_is_left ? bent : straight;
     el_edge_q20 right = short_is_left ? straight : bent;
-    int32_t y = y_begin;
     uint32_t pixels = 0;
     uint32_t empty = 0;
+    const uint16_t *end_of_part = row + (y_bend - y_begin) * width;
+    const uint16_t *const end_of_rows = row + (y_stop - y_begin) * width;
     for (;;) {
-        const uint16_t *const part_end = row + (y_part - y) * width;
-        while (row != part_end) {
-            const int32_t x = left.x >> 20;
-            const int32_t count = (right.x >> 20) - x;
-            if (count > 0) {
-                pixels += (uint32_t)count;
-                uint16_t *at = row + x;
-                const uint16_t *const end = at + count;
-                uint64_t value = z.value + el_multiply_u16(z.dx, (uint32_t)x);
-                do {
-                    const uint32_t depth = (uint32_t)(value >> 32);
-                    if (depth < *at) {
-                        EL_KEEP_BRANCH();
-                        *at = (uint16_t)depth;
-                        *el_colour_at(&cursor, at) = colour;
-                    }
-                    value += z.dx;
-                } while (++at != end);
-            } else {
-                empty++;
+        if (row == end_of_part) {
+            if (row == end_of_rows) {
+                break;
             }
-            left.x += left.step;
-            right.x += right.step;
-            z.value += z.dy;
-            row += width;
+            end_of_part = end_of_rows;
+            if (short_is_left) {
+                left = lower;
+            } else {
+                right = lower;
+            }
         }
-        y = y_part;
-        if (y == y_stop) {
-            break;
+        const int32_t x = left.x >> 20;
+        const int32_t count = (right.x >> 20) - x;
+        if (count > 0) {
+            pixels += (uint32_t)count;
+            uint16_t *at = row + x;
+            const uint16_t *const end = at + count;
+            uint64_t value = z.value + el_multiply_u16(z.dx, (uint32_t)x);
+            do {
+                const uint32_t depth = (uint32_t)(value >> 32);
+                if (depth < *at) {
+                    EL_KEEP_BRANCH();
+                    *at = (uint16_t)depth;
+                    *el_colour_at(&cursor, at) = colour;
+                }
+                value += z.dx;
+            } while (++at != end);
+        } else {
+            empty++;
         }
-        y_part = y_stop;
-        is_lower = true;
-        bent = edge_between(&middle, &bottom, y_middle);
-        left = short_is_left ? bent : left;
-        right = short_is_left ? right : bent;
+        left.x += left.step;
+        right.x += right.step;
+        z.value += z.dy;
+        row += width;
     }
     if (rest != NULL) {
-        const int32_t last = el_max_i32(x_of(&top), el_max_i32(x_of(&middle), x_of(&bottom)));
-        const int32_t first = el_min_i32(x_of(&top), el_min_i32(x_of(&middle), x_of(&bottom)));
         rest->surface = (el_surface){.shading = EL_SHADE_FLAT, .depth = true, .colour = colour};
         rest->y = (int16_t)y_stop;
-        rest->y_middle = is_lower ? INT16_MAX : (int16_t)y_middle;
+        rest->y_middle = y_stop <= y_middle && y_middle < y_end ? (int16_t)y_middle : INT16_MAX;
         rest->y_end = (int16_t)y_end;
-        rest->x_begin = (int16_t)el_first_centre(first);
-        rest->x_end = (int16_t)el_first_centre(last);
+        rest->x_begin = (int16_t)el_first_centre(x_least);
+        rest->x_end = (int16_t)el_first_centre(x_most);
         rest->kind = KIND;
         rest->short_is_left = short_is_left;
         el_edge_widen(&rest->left, left);
         el_edge_widen(&rest->right, right);
-        if (!is_lower) {
-            el_edge_widen(&rest->lower, edge_between(&middle, &bottom, y_middle));
-        }
+        el_edge_widen(&rest->lower, lower);
         rest->z = (el_plane){.value = z.value - EL_HALF_Q32, .dx = z.dx, .dy = z.dy};
     }
     el_count(&stats->rows, (uint32_t)(y_stop - y_begin));
