@@ -4,6 +4,7 @@
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
 #include "frame/quiet.h"
+#include "raster/plain.h"
 #include "raster/small_triangle.h"
 
 /* What is carried, see painter.h. */
@@ -113,47 +114,10 @@ static uint16_t nearest(const el_corner corners[3])
     return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
 }
 
-#if EL_WITH_SMALL_PLANES
-/* draw_record for what small_triangle.h does at once; nearly all records of a mesh without light or texture. Returns
- * false, and has done nothing, for others. */
-static inline bool draw_small(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_record *record,
-                              const el_target *target, uint16_t *carried_name)
-{
-    uint16_t colour;
-    const el_point *const points = el_list_plain_points(&renderer->list, record, &colour);
-    if (points == NULL || renderer->config.view != EL_DEBUG_PICTURE) {
-        return false;
-    }
-#if EL_WITH_HIDDEN
-    if (el_hidden_is_likely(painter->hidden, target, painter->stats)) {
-        return false;
-    }
-#endif
-    const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
-    if (!EL_WITH_CARRY || !painter->goes_on || el_first_centre(y_last) <= target->y_end) {
-        *carried_name = 0;
-        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
-    }
-    const uint16_t state_name = take_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT);
-    if (state_name == 0) {
-        *carried_name = name;
-        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
-    }
-    carried_state *const state = el_list_at(&renderer->list, state_name);
-    if (!el_small_triangle_draw(points, colour, target, painter->stats, &state->triangle)) {
-        give_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT, state_name);
-        return false;
-    }
-    state->order = name;
-    state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
-    *carried_name = state_name;
-    return true;
-}
-#endif
-
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
  * stay. Returns the name under which it is carried on; 0 when it is not. */
-static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                   const el_target *target)
 {
     const el_list *const list = &renderer->list;
     const el_record *const record = el_list_record(list, name);
@@ -164,12 +128,6 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     el_corner corners[3];
     el_surface surface;
     el_count(&painter->stats->setups, 1);
-#if EL_WITH_SMALL_PLANES
-    uint16_t drawn_name;
-    if (draw_small(painter, renderer, name, record, target, &drawn_name)) {
-        return drawn_name;
-    }
-#endif
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
@@ -206,11 +164,51 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     return state_name != 0 ? state_name : name;
 }
 
+/* The same, for the records that are listed in this band: nearly all of a mesh without light or texture are done at once. */
+static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                      const el_target *target)
+{
+#if EL_WITH_SMALL_PLANES
+    const el_list *const list = &renderer->list;
+    uint16_t colour;
+    const el_point *const points = el_plain_points(list, el_list_record(list, name), &colour);
+    bool is_other = points == NULL || (EL_WITH_DEBUG_VIEWS && renderer->config.view != EL_DEBUG_PICTURE);
+#if EL_WITH_HIDDEN
+    is_other = is_other || el_hidden_is_likely(painter->hidden, target, painter->stats);
+#endif
+    if (!is_other) {
+        const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
+        uint16_t state_name = 0;
+        uint16_t carried_name = 0;
+        el_triangle *rest = NULL;
+        if (EL_WITH_CARRY && painter->goes_on && el_first_centre(y_last) > target->y_end) {
+            state_name = take_state(&painter->carrying, list, EL_SHADE_FLAT);
+            carried_name = name;
+            if (state_name != 0) {
+                carried_state *const state = el_list_at(list, state_name);
+                state->order = name;
+                state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+                rest = &state->triangle;
+                carried_name = state_name;
+            }
+        }
+        if (el_small_triangle_draw(points, colour, target, painter->stats, rest)) {
+            el_count(&painter->stats->setups, 1);
+            return carried_name;
+        }
+        if (state_name != 0) {
+            give_state(&painter->carrying, list, EL_SHADE_FLAT, state_name);
+        }
+    }
+#endif
+    return draw_any(painter, renderer, name, target);
+}
+
 /* Draws what is carried on under that name. Returns the name under which it is carried on further; 0 when it is not. */
 static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
 {
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
-        return draw_record(painter, renderer, name, target);
+        return draw_any(painter, renderer, name, target);
     }
     carried_state *const state = el_list_at(&renderer->list, name);
     el_triangle *const triangle = &state->triangle;

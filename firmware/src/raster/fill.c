@@ -5,6 +5,7 @@
 
 #include "base/dither.h"
 #include "base/fixed.h"
+#include "raster/small_triangle.h"
 
 static EL_SPECIALISED uint32_t coloured(const el_values *v, uint32_t threshold_q16, unsigned kind)
 {
@@ -126,6 +127,13 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
+#if EL_WITH_SMALL_PLANES
+    if (triangle->edges_are_short && triangle->kind == EL_FILL_DEPTH && triangle->x_begin >= 0 &&
+        triangle->x_end <= target->width) {
+        el_small_triangle_go_on(triangle, target, stats);
+        return;
+    }
+#endif
     int32_t rows;
     do {
         rows = fill_rows(triangle, target, stats, triangle->kind);

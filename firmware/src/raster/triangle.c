@@ -140,6 +140,7 @@ static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const 
     triangle->y = (int16_t)y_begin;
     triangle->y_end = (int16_t)y_end;
     triangle->short_is_left = short_is_left;
+    triangle->edges_are_short = edges_are_short;
     /* The middle corner can only be beyond the others on its own side. */
     int32_t least = el_min_i32(o->top->x, o->bottom->x);
     int32_t most = el_max_i32(o->top->x, o->bottom->x);

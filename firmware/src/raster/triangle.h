@@ -52,6 +52,7 @@ typedef struct el_triangle {
     int16_t x_begin, x_end; /* no row reaches beyond these columns */
     uint8_t kind;           /* what its pixels need (fill.h) */
     bool short_is_left;     /* the side that bends at y_middle */
+    bool edges_are_short;   /* they are el_edge_q20, widened */
     el_edge left, right;    /* of the current part */
     el_edge lower;          /* the lower part's other edge */
     /* What a shading does not use, at the end, need not be in memory. */
