@@ -7,11 +7,20 @@
 #include "raster/plain.h"
 #include "raster/small_triangle.h"
 
+/* What frame/workers.c calls too, if there are workers. */
+#if EL_WITH_WORKERS
+#define OF_WORKERS_TOO
+#else
+#define OF_WORKERS_TOO static
+#endif
+
 /* What is carried, see painter.h. */
 typedef struct carried_state {
     uint16_t next;
     uint16_t order; /* name of the record, or of its share in a group */
+#if EL_WITH_HIDDEN
     uint16_t depth; /* of its nearest corner */
+#endif
     el_triangle triangle;
 } carried_state;
 
@@ -51,7 +60,7 @@ static inline uint16_t order_of(const el_carrying *c, const el_list *list, uint1
     return name < c->first_state ? name : ((const carried_state *)el_list_at(list, name))->order;
 }
 
-void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
+OF_WORKERS_TOO void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS && !el_band_is_free(band); i++) {
         const el_sink *const sink = renderer->config.sinks[i];
@@ -80,7 +89,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
-void el_bands_hand_over(el_renderer *renderer, el_band *band)
+OF_WORKERS_TOO void el_bands_hand_over(el_renderer *renderer, el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         band->held[i] = el_quiet_taker(renderer, i) != NULL;
@@ -107,12 +116,12 @@ static bool is_hidden(el_painter *painter, const el_target *target, const el_sur
     el_count(&painter->stats->triangles_hidden, 1);
     return true;
 }
-#endif
 
 static uint16_t nearest(const el_corner corners[3])
 {
     return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
 }
+#endif
 
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
  * stay. Returns the name under which it is carried on; 0 when it is not. */
@@ -147,7 +156,9 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
         if (state_name != 0) {
             carried_state *const state = el_list_at(list, state_name);
             state->order = name;
+#if EL_WITH_HIDDEN
             state->depth = nearest(corners);
+#endif
             triangle = &state->triangle;
         }
     }
@@ -164,11 +175,11 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     return state_name != 0 ? state_name : name;
 }
 
+#if EL_WITH_SMALL_PLANES
 /* The same, for the records that are listed in this band: nearly all of a mesh without light or texture are done at once. */
 static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
                                                       const el_target *target)
 {
-#if EL_WITH_SMALL_PLANES
     const el_list *const list = &renderer->list;
     uint16_t colour;
     const el_point *const points = el_plain_points(list, el_list_record(list, name), &colour);
@@ -200,12 +211,13 @@ static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const
             give_state(&painter->carrying, list, EL_SHADE_FLAT, state_name);
         }
     }
-#endif
     return draw_any(painter, renderer, name, target);
 }
+#endif
 
-/* Draws what is carried on under that name. Returns the name under which it is carried on further; 0 when it is not. */
-static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+/* Draws a record's triangle, or what is carried on under that name. Returns the name under which it is carried on further;
+ * 0 when it is not. */
+static uint16_t draw_named(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
 {
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
         return draw_any(painter, renderer, name, target);
@@ -230,7 +242,8 @@ static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, u
     return 0;
 }
 
-void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats)
+OF_WORKERS_TOO void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end,
+                                     el_stats *stats)
 {
     painter->stats = stats;
     painter->carrying =
@@ -288,7 +301,7 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
 
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
-void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
+OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
@@ -311,18 +324,23 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t 
     uint16_t carried_order = order_of(c, list, carried);
     uint16_t *last = &c->first;
     for (;;) {
-        uint16_t name;
-        if ((fresh == 0 ? NO_ORDER : fresh) < carried_order) {
-            const uint16_t next = *(const uint16_t *)el_list_at(list, fresh);
-            name = draw_record(painter, renderer, fresh, &target);
+        const bool is_fresh = (fresh == 0 ? NO_ORDER : fresh) < carried_order;
+        const uint16_t listed = is_fresh ? fresh : carried;
+        if (listed == 0) {
+            break;
+        }
+        const uint16_t next = *(const uint16_t *)el_list_at(list, listed);
+#if EL_WITH_SMALL_PLANES
+        const uint16_t name =
+            is_fresh ? draw_record(painter, renderer, listed, &target) : draw_named(painter, renderer, listed, &target);
+#else
+        const uint16_t name = draw_named(painter, renderer, listed, &target);
+#endif
+        if (is_fresh) {
             fresh = next;
-        } else if (carried != 0) {
-            const uint16_t next = *(const uint16_t *)el_list_at(list, carried);
-            name = draw_carried(painter, renderer, carried, &target);
+        } else {
             carried = next;
             carried_order = order_of(c, list, carried);
-        } else {
-            break;
         }
         if (name != 0) {
             *last = name;

@@ -63,8 +63,7 @@ static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
 }
 
 /* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
-static __attribute__((noinline)) uint16_t flat_colour(const el_draw_state *draw, uint16_t index,
-                                                      const el_corner corners[3])
+static EL_APART uint16_t flat_colour(const el_draw_state *draw, uint16_t index, const el_corner corners[3])
 {
     const unsigned count = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? 3 : 1;
     const bool turned = is_turned(draw, corners);
@@ -98,8 +97,7 @@ static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const u
 }
 
 /* Where the corners of a thin record are, as its vertices would have been listed. */
-static __attribute__((noinline)) void find_points(const el_draw_state *draw, const el_record *record,
-                                                  el_corner corners[3])
+static EL_APART void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
 {
     uint16_t w[3];
     uint8_t shifts[3];
@@ -125,7 +123,7 @@ static inline void take_point(el_corner *corner, const el_point *point)
 }
 
 /* 1/w of the corners of a textured record. */
-static __attribute__((noinline)) void gather_reciprocals(const el_record *record, el_corner corners[3])
+static EL_APART void gather_reciprocals(const el_record *record, el_corner corners[3])
 {
     const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
     uint8_t shifts[3];
@@ -138,17 +136,23 @@ static __attribute__((noinline)) void gather_reciprocals(const el_record *record
 /* Where the corners are; of textured ones 1/w. */
 static inline void gather_points(const el_record *record, el_record_kind kind, el_corner corners[3])
 {
-    take_point(&corners[0], &record->at.points[0]);
-    take_point(&corners[1], &record->at.points[1]);
-    take_point(&corners[2], &record->at.points[2]);
+    if (EL_SMALL_CODE) {
+        for (unsigned i = 0; i < 3; i++) {
+            take_point(&corners[i], &record->at.points[i]);
+        }
+    } else {
+        take_point(&corners[0], &record->at.points[0]);
+        take_point(&corners[1], &record->at.points[1]);
+        take_point(&corners[2], &record->at.points[2]);
+    }
     if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
         gather_reciprocals(record, corners);
     }
 }
 
 /* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
-static __attribute__((noinline)) void gather_attributes(const el_draw_state *draw, const el_record *record,
-                                                        el_record_kind kind, el_corner corners[3])
+static EL_APART void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
+                                       el_corner corners[3])
 {
     const el_shading shading = el_shading_of(draw);
     const bool turned = is_turned(draw, corners);
