@@ -50,6 +50,10 @@ def _draw(folder: Path, *flags: str) -> Drawn:
     return {name: (int(status), crc, int(pixels)) for name, status, crc, pixels in rows}
 
 
+def _pictures(drawn: Drawn) -> dict[str, tuple[int, str]]:
+    return {name: (status, crc) for name, (status, crc, _) in drawn.items()}
+
+
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory: pytest.TempPathFactory) -> Drawn:
     drawn = _draw(tmp_path_factory.mktemp("everything"))
@@ -59,13 +63,26 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> Drawn:
     return drawn
 
 
+@pytest.fixture(scope="module")
+def nothing_hidden(everything: Drawn, tmp_path_factory: pytest.TempPathFactory) -> Drawn:
+    """The same pictures; more pixels are counted, those of triangles that lie behind all that is drawn, which small code
+    draws."""
+    drawn = _draw(tmp_path_factory.mktemp("nothing_hidden"), "-DEL_WITH_HIDDEN=0")
+    assert _pictures(drawn) == _pictures(everything)
+    assert all(drawn[name][2] >= pixels for name, (_, _, pixels) in everything.items())
+    assert drawn != everything, "the scene hides something"
+    return drawn
+
+
 @pytest.mark.parametrize("small", [False, True], ids=["fast", "small"])
 @pytest.mark.parametrize("left_out", [*((name,) for name in NEEDS), FLAT], ids=lambda names: "-".join(names).lower())
-def test_a_mode_is_left_out(everything: Drawn, tmp_path: Path, left_out: tuple[str, ...], small: bool) -> None:
+def test_a_mode_is_left_out(
+    everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, left_out: tuple[str, ...], small: bool
+) -> None:
     flags = [f"-DEL_WITH_{option}=0" for option in left_out]
     drawn = _draw(tmp_path, f"-DEL_SMALL_CODE={int(small)}", *flags)
     refused = set().union(*(NEEDS[option] for option in left_out))
-    for name, expected in everything.items():
+    for name, expected in (nothing_hidden if small else everything).items():
         if name not in refused:
             assert drawn[name] == expected, name
         elif name == "orthographic":
@@ -76,18 +93,33 @@ def test_a_mode_is_left_out(everything: Drawn, tmp_path: Path, left_out: tuple[s
             assert crc not in {other for _, other, _ in everything.values()}, "a picture of the background"
 
 
-@pytest.mark.parametrize(
-    "flags", [("-DEL_SMALL_CODE=1",), ("-Os",), ("-O2",), ("-O2", "-DEL_WITH_DEBUG_VIEWS=1")], ids=" ".join
-)
-def test_small_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("flags", [("-O2",), ("-O2", "-DEL_WITH_DEBUG_VIEWS=1")], ids=" ".join)
+def test_optimised_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
     assert _draw(tmp_path, *flags) == everything
 
 
-@pytest.mark.parametrize("option", ["STATS", "CARRY", "THIN", "REUSE"])
+@pytest.mark.parametrize("flag", ["-DEL_SMALL_CODE=1", "-Os"])
+def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flag: str) -> None:
+    assert _draw(tmp_path, flag) == nothing_hidden
+
+
+@pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE"])
+def test_small_code_takes_what_it_begins_without(
+    everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, option: str
+) -> None:
+    drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1", f"-DEL_WITH_{option}=1")
+    assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
+
+
+@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE"])
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
-    drawn = _draw(tmp_path, f"-DEL_WITH_{option}=0")
-    pixels = {name: 0 if option == "STATS" else count for name, (_, _, count) in everything.items()}
-    assert drawn == {name: (status, crc, pixels[name]) for name, (status, crc, _) in everything.items()}
+    assert _draw(tmp_path, f"-DEL_WITH_{option}=0") == everything
+
+
+def test_without_counters_nothing_is_counted(everything: Drawn, tmp_path: Path) -> None:
+    drawn = _draw(tmp_path, "-DEL_WITH_STATS=0")
+    assert _pictures(drawn) == _pictures(everything)
+    assert all(pixels == 0 for _, _, pixels in drawn.values())
 
 
 def test_a_header_sets_options(everything: Drawn, tmp_path: Path) -> None:
@@ -102,6 +134,12 @@ def test_a_header_that_is_not_there_stops_the_compiler(tmp_path: Path) -> None:
     done = _compile(tmp_path, '-DEL_CONFIG_FILE="nowhere_config.h"')
     assert done.returncode != 0
     assert "nowhere_config.h" in done.stderr
+
+
+def test_what_is_hidden_needs_counters(tmp_path: Path) -> None:
+    done = _compile(tmp_path, "-DEL_WITH_HIDDEN=1", "-DEL_WITH_STATS=0")
+    assert done.returncode != 0
+    assert "EL_WITH_HIDDEN needs EL_WITH_STATS" in done.stderr
 
 
 def test_debug_views_need_counters(tmp_path: Path) -> None:

@@ -46,8 +46,8 @@ static int measure(const char *series, const el_scene *scene, uint32_t frame, ui
         .arena_bytes = arena_bytes,
     };
     el_renderer renderer;
-    uint32_t crc = 0;
-    const el_status status = bench_frame(scene, frame, &setting, &renderer, &crc);
+    bench_picture picture;
+    const el_status status = bench_frame(scene, frame, &setting, &renderer, &picture);
     bench_print(series);
     bench_print(" ");
     bench_print(scene->name);
@@ -60,7 +60,7 @@ static int measure(const char *series, const el_scene *scene, uint32_t frame, ui
         return 1;
     }
     bench_print(" crc ");
-    bench_print_hex(crc);
+    bench_print_hex(picture.crc);
     print_stats(el_frame_stats(&renderer));
     bench_print("\n");
     return 0;

@@ -6,6 +6,7 @@
 
 #include "base/fixed.h"
 #include "beetle.h"
+#include "clustered/s4.h"
 #include "newell.h"
 #include "spot.h"
 #include "suzanne.h"
@@ -99,6 +100,42 @@ static el_status newell_draw(uint32_t frame, el_renderer *renderer)
     return draw(renderer, &newell, &material);
 }
 
+/* S4 in the order of clusters; most of them are beside the view. */
+static void s4_camera(uint32_t frame, el_camera *camera)
+{
+    el_scene_find("S4")->place_camera(frame, camera);
+}
+
+static el_status s4_clusters_draw(uint32_t frame, el_renderer *renderer)
+{
+    static const el_material material = {.shading = EL_SHADE_FLAT};
+    static const struct {
+        const el_mesh *mesh;
+        const int32_t *offset_q16;
+    } parts[] = {{&s4_a, s4_a_offset_q16}, {&s4_b, s4_b_offset_q16}, {&s4_c, s4_c_offset_q16}};
+    el_status status = EL_OK;
+    (void)frame;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && status == EL_OK; i++) {
+        el_pose pose = el_pose_identity();
+        for (unsigned axis = 0; axis < 3; axis++) {
+            pose.position_q16[axis] = parts[i].offset_q16[axis];
+        }
+        status = el_draw(renderer, parts[i].mesh, &pose, &material);
+    }
+    return status;
+}
+
+static el_status newell_whole_draw(uint32_t frame, el_renderer *renderer)
+{
+    static const el_material material = {.shading = EL_SHADE_GOURAUD, .colour = {226, 146, 74}, .light = &key_light};
+    static el_mesh whole;
+    whole = newell;
+    whole.clusters = NULL;
+    whole.cluster_count = 0;
+    (void)frame;
+    return draw(renderer, &whole, &material);
+}
+
 #define NAVY 0x10A3
 
 const el_scene model_scenes[] = {
@@ -106,6 +143,8 @@ const el_scene model_scenes[] = {
     {"model-suzanne", "lit, Gouraud", NAVY, suzanne_camera, suzanne_draw, NULL},
     {"model-beetle", "an open surface, both sides, lit, flat", NAVY, beetle_camera, beetle_draw, NULL},
     {"model-teapot", "6,320 small triangles, lit, Gouraud", NAVY, newell_camera, newell_draw, NULL},
+    {"model-teapot-whole", "the same without clusters", NAVY, newell_camera, newell_whole_draw, NULL},
+    {"S4-clusters", "S4 in the order of clusters", 0x0000, s4_camera, s4_clusters_draw, NULL},
 };
 const size_t model_scene_count = sizeof model_scenes / sizeof model_scenes[0];
 

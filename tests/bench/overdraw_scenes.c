@@ -31,6 +31,8 @@ static const el_texture texture = {.texels = texels, .width_log2 = 3, .height_lo
     }
 static const el_material flat[LAYERS] = {LAYER(0), LAYER(1), LAYER(2), LAYER(3), LAYER(4),
                                          LAYER(5), LAYER(6), LAYER(7), LAYER(8), LAYER(9)};
+static const el_material lit = {
+    .shading = EL_SHADE_TEXTURED_GOURAUD, .flags = EL_MATERIAL_DITHER, .colour = {250, 200, 150}, .texture = &texture};
 static const el_material textured = {.shading = EL_SHADE_TEXTURED, .texture = &texture};
 
 static void place_camera(uint32_t frame, el_camera *camera)
@@ -95,11 +97,23 @@ static el_status textured_back_to_front(uint32_t frame, el_renderer *renderer)
     return status;
 }
 
+static el_status lit_back_to_front(uint32_t frame, el_renderer *renderer)
+{
+    el_status status = EL_OK;
+    (void)frame;
+    for (int32_t layer = LAYERS - 1; layer >= 0 && status == EL_OK; layer--) {
+        status = draw_layer(renderer, layer, &lit);
+    }
+    return status;
+}
+
 const el_scene overdraw_scenes[] = {
     {"layers-front-to-back", "ten layers over the whole screen, flat, depth", 0, place_camera, flat_front_to_back,
      NULL},
     {"layers-back-to-front", "the same, the farthest first", 0, place_camera, flat_back_to_front, NULL},
     {"sheets-front-to-back", "ten textured layers, depth", 0, place_camera, textured_front_to_back, NULL},
     {"sheets-back-to-front", "the same, the farthest first", 0, place_camera, textured_back_to_front, NULL},
+    {"lit-back-to-front", "ten textured layers in a colour, dithered: dear pixels", 0, place_camera, lit_back_to_front,
+     NULL},
 };
 const size_t overdraw_scene_count = sizeof overdraw_scenes / sizeof overdraw_scenes[0];

@@ -266,7 +266,7 @@ def short_aside_lemma(machine: Machine, aside: Number) -> Number:
     if aside.poly.constant is not None:
         return aside
     ends = ENDS[id(path)]
-    step = machine.locals["el_edge_make_short.step_q20"].poly
+    step = machine.locals["el_edge_make_q20.step_q20"].poly
     f = step * ends.t - aside.poly * 16
     path.assume_product(f, ends.dy)
     path.assume_product(15 - f, ends.dy)
@@ -283,7 +283,7 @@ def short_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     path = machine.path
     ends = ENDS.pop(id(path))
     edge = arguments[0].cell
-    x, step, aside = (machine.locals[f"el_edge_make_short.{name}"].poly for name in ("x_q20", "step_q20", "aside"))
+    x, step, aside = (machine.locals[f"el_edge_make_q20.{name}"].poly for name in ("x_q20", "step_q20", "aside"))
     path.prove(machine.poly(edge, "x_q32") - x * 2**12, "x in Q32", zero=True)
     path.prove(machine.poly(edge, "step_q32") - step * 2**12, "the step in Q32", zero=True)
     k, t, n = ends.stepped(machine)
@@ -367,8 +367,8 @@ MAKE_SHORT = Subject(
         "el_q20_to_q32": lambda machine, arguments: machine.exactly("int64_t", arguments[0].poly * 2**12),
     },
     lemmas={
-        "el_edge_make_short.step_q20": short_step_lemma,
-        "el_edge_make_short.aside": short_aside_lemma,
+        "el_edge_make_q20.step_q20": short_step_lemma,
+        "el_edge_make_q20.aside": short_aside_lemma,
     },
 )
 WIDEN = Subject(

@@ -193,11 +193,13 @@ static void test_a_full_link_costs_nothing(void)
     TEST_ASSERT_EQUAL_UINT8(1, dev.stream.credits);
 }
 
-/* Fills the queue so that it has room for a packet with `body_bytes` and no other byte. */
+/* Fills the queue so that it has room for a packet with `body_bytes` and not for a LOG of one byte besides, which takes its
+ * byte, what every packet has and two bytes of COBS. */
 static void fill_the_queue(size_t body_bytes)
 {
+    const size_t log_bytes = 1 + EL_PACKET_OVERHEAD_BYTES + 2;
     wire.room = 0;
-    while (el_packet_fits(&dev.stream.writer, body_bytes + 8)) {
+    while (el_packet_fits(&dev.stream.writer, body_bytes + log_bytes)) {
         TEST_ASSERT_EQUAL_INT32(1, el_stream_log(&dev.stream, "x", 1));
     }
     TEST_ASSERT_TRUE(el_packet_fits(&dev.stream.writer, body_bytes));

@@ -4,6 +4,7 @@
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
 #include "frame/quiet.h"
+#include "raster/small_triangle.h"
 
 /* What is carried, see painter.h. */
 typedef struct carried_state {
@@ -98,8 +99,8 @@ void el_bands_hand_over(el_renderer *renderer, el_band *band)
 static bool is_hidden(el_painter *painter, const el_target *target, const el_surface *surface, int32_t x_begin,
                       int32_t x_end, uint16_t depth)
 {
-    if (!el_hidden_is_likely(painter->hidden, target, painter->stats) || !surface->depth ||
-        surface->shading == EL_SHADE_OVERDRAW || !el_hidden_is(painter->hidden, target, x_begin, x_end, depth)) {
+    if (!surface->depth || surface->shading == EL_SHADE_OVERDRAW ||
+        !el_hidden_is(painter->hidden, target, x_begin, x_end, depth)) {
         return false;
     }
     el_count(&painter->stats->triangles_hidden, 1);
@@ -111,6 +112,44 @@ static uint16_t nearest(const el_corner corners[3])
 {
     return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
 }
+
+#if EL_WITH_SMALL_PLANES
+/* draw_record for what small_triangle.h does at once; nearly all records of a mesh without light or texture. Returns
+ * false, and has done nothing, for others. */
+static inline bool draw_small(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_record *record,
+                              const el_target *target, uint16_t *carried_name)
+{
+    uint16_t colour;
+    const el_point *const points = el_list_plain_points(&renderer->list, record, &colour);
+    if (points == NULL || renderer->config.view != EL_DEBUG_PICTURE) {
+        return false;
+    }
+#if EL_WITH_HIDDEN
+    if (el_hidden_is_likely(painter->hidden, target, painter->stats)) {
+        return false;
+    }
+#endif
+    const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
+    if (!EL_WITH_CARRY || !painter->goes_on || el_first_centre(y_last) <= target->y_end) {
+        *carried_name = 0;
+        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
+    }
+    const uint16_t state_name = take_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT);
+    if (state_name == 0) {
+        *carried_name = name;
+        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
+    }
+    carried_state *const state = el_list_at(&renderer->list, state_name);
+    if (!el_small_triangle_draw(points, colour, target, painter->stats, &state->triangle)) {
+        give_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT, state_name);
+        return false;
+    }
+    state->order = name;
+    state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+    *carried_name = state_name;
+    return true;
+}
+#endif
 
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
  * stay. Returns the name under which it is carried on; 0 when it is not. */
@@ -124,14 +163,21 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     uint16_t state_name = 0;
     el_corner corners[3];
     el_surface surface;
+    el_count(&painter->stats->setups, 1);
+#if EL_WITH_SMALL_PLANES
+    uint16_t drawn_name;
+    if (draw_small(painter, renderer, name, record, target, &drawn_name)) {
+        return drawn_name;
+    }
+#endif
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
-    el_count(&painter->stats->setups, 1);
     const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
     const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
 #if EL_WITH_HIDDEN
-    if (is_hidden(painter, target, &surface,
+    if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
+        is_hidden(painter, target, &surface,
                   el_first_centre(el_min_i32(corners[0].x, el_min_i32(corners[1].x, corners[2].x))),
                   el_first_centre(el_max_i32(corners[0].x, el_max_i32(corners[1].x, corners[2].x))),
                   nearest(corners))) {
@@ -166,13 +212,14 @@ static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, u
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
         return draw_record(painter, renderer, name, target);
     }
-    const carried_state *const state = el_list_at(&renderer->list, name);
-    el_triangle *const triangle = &((carried_state *)el_list_at(&renderer->list, name))->triangle;
+    carried_state *const state = el_list_at(&renderer->list, name);
+    el_triangle *const triangle = &state->triangle;
     const bool reaches_on = painter->goes_on && triangle->y_end > target->y_end;
-    const uint16_t order = state->order;
 #if EL_WITH_HIDDEN
-    if (is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
+    if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
+        is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
         /* It is set up anew where it comes into sight, if it does. */
+        const uint16_t order = state->order;
         give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
         return reaches_on ? order : 0;
     }

@@ -6,24 +6,30 @@
 
 /* Cones are left alone where numbers are too coarse for them: an adjugate of fewer bits loses its directions, and with w
  * below so many units per pixel a corner's place is not known to a fraction of a sub-pixel. */
-enum { MIN_DETERMINANT_BITS = 46, MIN_DIRECTION_BITS = 43, MIN_W_PER_SUBPIXEL = 12, NO_CONE = 252 };
+enum { MIN_DETERMINANT_BITS = 46, MIN_DIRECTION_BITS = 26, MIN_W_PER_SUBPIXEL = 12, NO_CONE = 250 };
 
 /* log2(1 + f) is f + 0.344 f (1 - f), less 2/256 to more 5/256. */
-static int32_t log2_near_q8(uint64_t x)
+static int32_t log2_near_q8(uint32_t x)
 {
-    const int leading = __builtin_clzll(x);
-    const uint32_t f = (uint32_t)((x << leading) << 1 >> 56);
-    return (63 - leading) * 256 + (int32_t)(f + (f * (256U - f) * 88U >> 16));
+    const int32_t zeros = (int32_t)el_normalise(&x);
+    const uint32_t f = x << 1 >> 24;
+    return (31 - zeros) * 256 + (int32_t)(f + (f * (256U - f) * 88U >> 16));
 }
 
-static int32_t log2_floor_q8(uint64_t x)
+static int32_t log2_floor_q8(uint32_t x)
 {
     return log2_near_q8(x) - 3;
 }
 
-static int32_t log2_ceil_q8(uint64_t x)
+static int32_t log2_ceil_q8(uint32_t x)
 {
     return log2_near_q8(x) + 5;
+}
+
+/* What is cut off changes less than 2^-31 of x. */
+static int32_t wide_log2_near_q8(uint64_t x)
+{
+    return x >> 32 == 0 ? log2_near_q8((uint32_t)x) : 32 * 256 + log2_near_q8((uint32_t)(x >> 32));
 }
 
 /* 2^(log2_q8 / 256), rounded up: 2^f <= 1 + f. log2_q8 < 30 * 256. */
@@ -42,7 +48,7 @@ static uint32_t length_of(const int32_t row[3])
     return el_sqrt_u64(sum) + 1U;
 }
 
-/* The adjugate of the rows, rounded to 30 bits; returns how many bits were left out, or -1 where the rows are 0. It takes
+/* The adjugate of the rows, rounded to 29 bits and a sign; returns how many bits were left out, or -1 where the rows are 0. It takes
  * clip coordinates to directions: rows * (point - camera) = 2^shift * clip, so point - camera goes with adjugate * clip. */
 static int make_adjugate(const int32_t rows[3][3], int32_t adjugate[3][3])
 {
@@ -108,16 +114,19 @@ static uint64_t pixels_per_unit(const el_transform *transform, const int32_t row
  * sub-pixel and an eighth on each axis. A triangle whose least altitude is five times that keeps its winding:
  * with c for that move and L >= a for longest side and altitude on it, the new doubled area is at least
  * a L - 2c L - 2c (a + 2c), and above 0 for a >= 5c. */
+enum { LEFT_OUT = 15 }; /* bits of the adjugate that directions are found without */
+
 static void make_cones(el_cluster_view *view, const el_transform *transform, const int32_t rows[3][3])
 {
     const int32_t shift = (int32_t)el_transform_shift(transform);
-    const int dropped = make_adjugate(rows, view->to_model);
+    int32_t adjugate[3][3];
+    const int dropped = make_adjugate(rows, adjugate);
     if (dropped < 0) {
         return;
     }
     int64_t determinant = 0; /* without `dropped` bits: three products below 2^58 */
     for (unsigned j = 0; j < 3; j++) {
-        determinant += (int64_t)rows[0][j] * view->to_model[j][0];
+        determinant += (int64_t)rows[0][j] * adjugate[j][0];
     }
     const uint64_t magnitude = el_abs_u64(determinant);
     const int bits = el_bit_length_u64(magnitude);
@@ -126,13 +135,18 @@ static void make_cones(el_cluster_view *view, const el_transform *transform, con
     }
     view->cones = true;
     view->mirrored = determinant < 0;
-    view->unit = (uint32_t)(magnitude >> (bits - 31));
-    view->unit_log2 = (int8_t)(bits - 31 - shift);
+    view->unit = (uint16_t)((magnitude >> (bits - 13)) + 1U);
+    view->unit_log2 = (int8_t)(bits - 13 - shift - LEFT_OUT);
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned j = 0; j < 3; j++) {
+            view->to_model[i][j] = (int16_t)((adjugate[i][j] + (1 << (LEFT_OUT - 1))) >> LEFT_OUT);
+        }
+    }
 
     const int32_t one = 256;
     const int32_t area_q8 = log2_floor_q8(transform->size[0]) + log2_floor_q8(transform->size[1]) - 2 * one +
-                            log2_floor_q8(magnitude) + one * (dropped - 3 * shift);
-    const int32_t pixels_q8 = log2_ceil_q8(pixels_per_unit(transform, rows)) - one * shift;
+                            wide_log2_near_q8(magnitude) - 3 + one * (dropped - 3 * shift);
+    const int32_t pixels_q8 = wide_log2_near_q8(pixels_per_unit(transform, rows)) + 5 - one * shift;
     const int32_t least_altitude_q8 = 556 - one * EL_SUBPIXEL_BITS; /* log2(4.5 / S) */
     view->slack_log2_q8 = least_altitude_q8 + pixels_q8 - area_q8;
 }
@@ -140,93 +154,136 @@ static void make_cones(el_cluster_view *view, const el_transform *transform, con
 void el_cluster_view_make(el_cluster_view *view, const el_transform *transform, bool two_sided)
 {
     int32_t rows[3][3];
+    uint32_t reach[3];
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {
             rows[i][j] = el_transform_element(transform, i, j);
         }
-        view->reach[i] = length_of(rows[i]);
+        reach[i] = length_of(rows[i]);
     }
+    const int bits = el_bit_length_u32(reach[0] | reach[1] | reach[2]);
+    view->reach_log2 = (int8_t)el_max_i32(0, bits - 16);
+    for (unsigned i = 0; i < 3; i++) {
+        view->reach[i] = (uint16_t)el_min_i32((int32_t)(reach[i] >> view->reach_log2) + 1, UINT16_MAX);
+    }
+    view->reach_log2 = (int8_t)(view->reach_log2 - (int)el_transform_shift(transform));
     view->cones = false;
     if (!two_sided && !el_transform_is_orthographic(transform)) {
         make_cones(view, transform, (const int32_t(*)[3])rows);
     }
 }
 
+/* From the camera to a cluster's middle, 15 bits, and the way from there to the verdict. */
+typedef struct sight {
+    int32_t along;     /* the cone's axis: 128 times, or a little less */
+    uint32_t squares;  /* the squared length */
+    int32_t unit_log2; /* a position unit is view->unit * 2^unit_log2 in the same unit */
+} sight;
+
+/* False where the direction is not known well enough, or the axis looks back at the camera. */
+static bool look_along(const el_cluster_view *view, const el_cluster *cluster, const el_clip_vertex *centre, sight *s)
+{
+    const uint32_t all = (uint32_t)(centre->x < 0 ? -centre->x : centre->x) |
+                         (uint32_t)(centre->y < 0 ? -centre->y : centre->y) | (uint32_t)centre->d;
+    const int32_t down = el_max_i32(0, el_bit_length_u32(all) - 15);
+    const int32_t clip[3] = {centre->x >> down, centre->y >> down, centre->d >> down};
+    /* Three products below 2^14 * 2^15, off by 2^17 at most. */
+    int32_t direction[3];
+    uint32_t magnitudes = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const int16_t *const row = view->to_model[i];
+        direction[i] = row[0] * clip[0] + row[1] * clip[1] + row[2] * clip[2];
+        magnitudes |= (uint32_t)(direction[i] < 0 ? -direction[i] : direction[i]);
+    }
+    const int32_t bits = el_bit_length_u32(magnitudes);
+    if (bits < MIN_DIRECTION_BITS) {
+        return false;
+    }
+    s->along = 0;
+    s->squares = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t part = direction[i] >> (bits - 15);
+        s->squares += (uint32_t)(part * part); /* at most 3 * 2^30 */
+        s->along += part * cluster->axis[i];
+    }
+    s->along = view->mirrored ? -s->along : s->along;
+    s->unit_log2 = view->unit_log2 - down - (bits - 15);
+    return s->along > 0;
+}
+
+/* With d that direction, s the spread: axis . d >= |d| s + room means that each normal . (point - camera) is at least what
+ * `room`, in position units, has beyond the sphere's radius, for sin a - sin b <= sin(a - b). 4/256 of |d| cover what was
+ * cut off. */
+static bool leaves_room(const el_cluster_view *view, const el_cluster *cluster, const sight *s, uint32_t room)
+{
+    const uint32_t scaled = room * view->unit; /* below 2^18 * 2^13 */
+    if (s->unit_log2 > 0 || s->unit_log2 < -31) {
+        return false; /* closer than anything is to a camera, or too far to matter */
+    }
+    const int32_t left = (s->along >> 7) - (int32_t)(scaled >> -s->unit_log2) - 1; /* below 2^16 */
+    const uint32_t sine_q8 = cluster->spread + 4U;
+    return left > 0 &&
+           (uint32_t)left * (uint32_t)left > (uint32_t)(el_product_u32_u16(s->squares, sine_q8 * sine_q8) >> 16);
+}
+
 /* Whether all triangles of a cluster that lies before the camera face away. `least` and `most`: w of its vertices. */
 static bool is_turned(const el_cluster_view *view, const el_cluster *cluster, const el_clip_vertex *centre,
                       int32_t least, int32_t most)
 {
-    const int32_t altitude_q8 = log2_floor_q8(cluster->altitude);
-    const int32_t most_q8 = log2_ceil_q8((uint32_t)most);
-    const int32_t slack_q8 = view->slack_log2_q8 + 3 * most_q8 - log2_floor_q8((uint32_t)least) - altitude_q8;
-    if (slack_q8 >= 16 * 256) {
+    sight s;
+    const uint32_t room = cluster->radius + 3U;
+    if (!look_along(view, cluster, centre, &s) || !leaves_room(view, cluster, &s, room)) {
         return false;
     }
-    /* From the camera to the sphere's centre, in view->unit's unit; three products below 2^59. */
-    const int32_t clip[3] = {centre->x, centre->y, centre->d};
-    int64_t exact[3];
-    uint64_t all = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        exact[i] = 0;
-        for (unsigned j = 0; j < 3; j++) {
-            exact[i] += (int64_t)view->to_model[i][j] * clip[j];
-        }
-        all |= el_abs_u64(exact[i]);
+    const int32_t slack_q8 = view->slack_log2_q8 + 3 * log2_ceil_q8((uint32_t)most) - log2_floor_q8((uint32_t)least) -
+                             log2_floor_q8(cluster->altitude);
+    return slack_q8 < 16 * 256 && leaves_room(view, cluster, &s, room + power_of_two(slack_q8));
+}
+
+/* How far a coordinate of a vertex may be from the centre's, for both are rounded down; INT32_MAX where that is too far for
+ * 32 bits. */
+static int32_t reach_of(const el_cluster_view *view, const el_cluster *cluster, unsigned i)
+{
+    enum { MOST = 1 << 28 };
+    const uint32_t product = (uint32_t)view->reach[i] * cluster->radius;
+    if (view->reach_log2 > 0) {
+        return product >= (uint32_t)MOST >> view->reach_log2 ? INT32_MAX : (int32_t)(product << view->reach_log2) + 2;
     }
-    const int bits = el_bit_length_u64(all);
-    if (bits < MIN_DIRECTION_BITS) {
-        return false;
-    }
-    const int dropped = bits - 30;
-    uint64_t squares = 0;
-    int64_t along = 0; /* the axis, about 127 times */
-    for (unsigned i = 0; i < 3; i++) {
-        const int32_t part = (int32_t)(exact[i] >> dropped);
-        squares += (uint64_t)((int64_t)part * part);
-        along += (int64_t)part * cluster->axis[i];
-    }
-    if (view->mirrored) {
-        along = -along;
-    }
-    /* With d that direction, r the radius, s the spread and m the slack: axis . d >= |d| s + r + m means that each
-     * normal . (point - camera) >= m, for sin a - sin b <= sin(a - b). 2/256 of |d| cover what is cut off above. */
-    const uint64_t room = (uint64_t)cluster->radius + power_of_two(slack_q8) + 2U; /* below 2^18 */
-    const int shift = dropped - view->unit_log2;
-    if (shift < -13) {
-        return false; /* more than any direction has */
-    }
-    const uint64_t scaled =
-        shift >= 0 ? (room * view->unit >> (shift < 63 ? shift : 63)) + 1U : room * view->unit << -shift;
-    const uint64_t aside = ((uint64_t)(el_sqrt_u64(squares) + 1U) * (cluster->spread + 2U) >> 8) + 1U;
-    return along >= 0 && (uint64_t)along >= 128U * (aside + scaled);
+    const uint32_t reach = product >> -view->reach_log2;
+    return reach >= MOST ? INT32_MAX : (int32_t)reach + 2;
 }
 
 el_cluster_verdict el_cluster_look(const el_cluster_view *view, const el_transform *transform,
                                    const el_cluster *cluster)
 {
-    const el_clip_vertex centre = el_transform_position(transform, cluster->centre);
-    /* How far x, y and d of a vertex may be from the centre's: below 2^31 * 2^16, and all of them are rounded down. */
-    int64_t reach[3];
-    for (unsigned i = 0; i < 3; i++) {
-        reach[i] = (int64_t)(((uint64_t)view->reach[i] * cluster->radius) >> el_transform_shift(transform)) + 2;
-    }
-    const int64_t w_reach = el_transform_is_orthographic(transform) ? 0 : reach[2];
-    const int64_t x = centre.x < 0 ? -(int64_t)centre.x : centre.x;
-    const int64_t y = centre.y < 0 ? -(int64_t)centre.y : centre.y;
-    if (x - reach[0] > centre.w + w_reach || y - reach[1] > centre.w + w_reach ||
-        centre.d + reach[2] < transform->near || centre.d - reach[2] > transform->far) {
-        return EL_CLUSTER_OUTSIDE;
-    }
-    const int64_t least = centre.w - w_reach;
-    const int64_t most = centre.w + w_reach;
-    const int32_t size = el_max_i32(transform->size[0], transform->size[1]);
-    const bool wide = transform->guard_shift[0] == 0 || transform->guard_shift[1] == 0;
-    const int64_t around = wide ? least : least * AROUND_THE_SCREEN_Q3 >> 3;
-    /* No vertex is clipped, the guard band beginning at the screen's sides or at twice that, and each is at its place to a fraction of a sub-pixel. */
-    if (!view->cones || cluster->spread >= NO_CONE || cluster->altitude == 0 || centre.d - reach[2] < transform->near ||
-        centre.d + reach[2] > transform->far || least < (int64_t)size * EL_SUBPIXELS * MIN_W_PER_SUBPIXEL ||
-        most > INT32_MAX || x + reach[0] > around || y + reach[1] > around) {
+    const int32_t x_reach = reach_of(view, cluster, 0);
+    const int32_t y_reach = reach_of(view, cluster, 1);
+    const int32_t d_reach = reach_of(view, cluster, 2);
+    if (x_reach == INT32_MAX || y_reach == INT32_MAX || d_reach == INT32_MAX) {
         return EL_CLUSTER_SEEN;
     }
-    return is_turned(view, cluster, &centre, (int32_t)least, (int32_t)most) ? EL_CLUSTER_TURNED : EL_CLUSTER_SEEN;
+    /* |coordinates| < 2^30: the centre lies in the mesh's sphere. */
+    const el_clip_vertex centre = el_transform_position(transform, cluster->centre);
+    const int32_t w_reach = el_transform_is_orthographic(transform) ? 0 : d_reach;
+    const int32_t x = centre.x < 0 ? -centre.x : centre.x;
+    const int32_t y = centre.y < 0 ? -centre.y : centre.y;
+    const int32_t least = centre.w - w_reach;
+    const int32_t most = centre.w + w_reach;
+    if (x - x_reach > most || y - y_reach > most || centre.d + d_reach < transform->near ||
+        centre.d - d_reach > transform->far) {
+        return EL_CLUSTER_OUTSIDE;
+    }
+    if (!view->cones || cluster->spread >= NO_CONE || cluster->altitude == 0) {
+        return EL_CLUSTER_SEEN;
+    }
+    /* No vertex is clipped, the guard band beginning at the screen's sides or at twice that, and each is at its place to a
+     * fraction of a sub-pixel. */
+    const int32_t size = el_max_i32(transform->size[0], transform->size[1]);
+    const bool wide = transform->guard_shift[0] == 0 || transform->guard_shift[1] == 0;
+    const int32_t around = wide ? least : least + (least >> 3);
+    if (least < size * (EL_SUBPIXELS * MIN_W_PER_SUBPIXEL) || centre.d - d_reach < transform->near ||
+        centre.d + d_reach > transform->far || x + x_reach > around || y + y_reach > around) {
+        return EL_CLUSTER_SEEN;
+    }
+    return is_turned(view, cluster, &centre, least, most) ? EL_CLUSTER_TURNED : EL_CLUSTER_SEEN;
 }

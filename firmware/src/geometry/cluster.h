@@ -17,13 +17,15 @@ extern "C" {
 
 /* What a draw's transform says about all of its clusters. */
 typedef struct el_cluster_view {
-    uint32_t reach[3];      /* the most that x, y and d change per position unit, times 2^shift, rounded up */
-    bool cones;             /* the rest is valid */
-    bool mirrored;          /* the transform's determinant is negative */
-    int8_t unit_log2;       /* a position unit is unit * 2^unit_log2 of `to_model` * clip coordinates */
-    int32_t to_model[3][3]; /* from clip coordinates to directions in model space, in a common unit */
-    uint32_t unit;          /* [2^30, 2^31) */
-    int32_t slack_log2_q8;  /* log2 of how far the camera must be behind a plane, times altitude and w / w^3 */
+    uint16_t reach[3]; /* the most that x, y and d change per position unit, rounded up: reach * 2^reach_log2 */
+    int8_t reach_log2;
+    bool cones;       /* the rest is valid */
+    bool mirrored;    /* the transform's determinant is negative */
+    int8_t unit_log2; /* a position unit is unit * 2^unit_log2 of to_model * clip coordinates */
+    uint16_t unit;    /* 13 bits, rounded up */
+    int16_t to_model[3]
+                    [3]; /* from clip coordinates to directions in model space, in a common unit, 14 bits and a sign */
+    int32_t slack_log2_q8; /* log2 of how far the camera must be behind a plane, times altitude and w / w^3 */
 } el_cluster_view;
 
 /* `two_sided`: no triangle may be skipped for facing away. */

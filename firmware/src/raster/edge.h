@@ -76,6 +76,11 @@ static inline int64_t el_q20_to_q32(int32_t a_q20)
     return (int64_t)((uint64_t)(uint32_t)(a_q20 >> 20) << 32 | (uint32_t)a_q20 << 12);
 }
 
+/* An el_edge in fewer bits. */
+typedef struct el_edge_q20 {
+    int32_t x, step;
+} el_edge_q20;
+
 /* The same for |x1 - x0| <= EL_EDGE_NARROW, y1 - y0 <= EL_EDGE_SHORT.
  *
  * A step of the grid is at least 2^20 / (16 * 511), 128 units of 2^-20. A reciprocal that is short by up to a unit of
@@ -83,7 +88,7 @@ static inline int64_t el_q20_to_q32(int32_t a_q20)
  * where dx < 0. That is times t / 16 on a row t below the corner, t < 511, and a unit more is cut off where the edge
  * begins: too low by less than 49 units, too high by less than 16. So what is added first is 48 units less than 1: the
  * whole part is right as long as 16 < 48 and 48 + 49 <= 128. */
-static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
+static inline el_edge_q20 el_edge_make_q20(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
     const int32_t half = EL_SUBPIXELS / 2;
     const int32_t down = row * EL_SUBPIXELS + half - y0;                                   /* 0 to 510 */
@@ -91,8 +96,18 @@ static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int
     const int32_t aside = (step_q20 * down) >> EL_SUBPIXEL_BITS;                           /* below 2^20 * 64 */
     /* (x0 - half + down dx / dy) / 16, and 1 to be rounded up: within +-2041 pixels. */
     const int32_t x_q20 = (x0 + half) * (1 << (20 - EL_SUBPIXEL_BITS)) + aside - 48;
-    edge->x_q32 = el_q20_to_q32(x_q20);
-    edge->step_q32 = el_q20_to_q32(step_q20);
+    return (el_edge_q20){.x = x_q20, .step = step_q20};
+}
+
+static inline void el_edge_widen(el_edge *edge, el_edge_q20 narrow)
+{
+    edge->x_q32 = el_q20_to_q32(narrow.x);
+    edge->step_q32 = el_q20_to_q32(narrow.step);
+}
+
+static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
+{
+    el_edge_widen(edge, el_edge_make_q20(x0, y0, x1, y1, row));
 }
 #endif
 

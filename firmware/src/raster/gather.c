@@ -222,6 +222,24 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }
 
+#if EL_WITH_SMALL_PLANES
+const el_point *el_list_plain_points(const el_list *list, const el_record *record, uint16_t *colour)
+{
+    const el_run *const run = el_list_run(list, record);
+    const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
+    if (el_shading_of(draw) != EL_SHADE_FLAT || (draw->material->flags & EL_MATERIAL_NO_DEPTH) != 0 ||
+        run->kind == EL_RECORD_THIN) {
+        return NULL;
+    }
+    const uint8_t *const plain = plain_colour(draw, record->index);
+    if (plain == NULL) {
+        return NULL;
+    }
+    *colour = el_rgb565(plain[0], plain[1], plain[2]);
+    return record->at.points;
+}
+#endif
+
 unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
 {
     const el_record_kind kind = (el_record_kind)el_list_run(list, record)->kind;

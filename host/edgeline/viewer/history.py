@@ -46,6 +46,11 @@ _LABELS = {
     "rows": "rows walked",
     "flushes": "early flushes",
     "memory_peak": "memory peak, bytes",
+    "clusters_outside": "clusters outside the view",
+    "clusters_turned": "clusters facing away",
+    "triangles_skipped": "triangles of both",
+    "triangles_hidden": "triangles hidden, by band",
+    "pixels_prepass": "pixels drawn for depth alone",
     "lines_background": "lines of background left out",
     "frames_unchanged": "unchanged, not drawn",
 }

@@ -56,6 +56,11 @@ EQUAL = (
     ("teapot", "teapot-again"),
     ("layers-front-to-back", "layers-back-to-front"),
     ("sheets-front-to-back", "sheets-back-to-front"),
+    ("layers-back-to-front", "layers-back-to-front-prepass"),
+    ("sheets-back-to-front", "sheets-back-to-front-prepass"),
+    ("lit-back-to-front", "lit-back-to-front-prepass"),
+    ("S4", "S4-clusters"),
+    ("model-teapot", "model-teapot-whole"),
 )
 
 
@@ -182,6 +187,8 @@ def _frame(line: Line, native: Line, bits: int, counts: dict[str, int], splits: 
 def _compare_with_each_other(frames: Iterable[Frame], verdicts: Verdicts) -> None:
     crcs = {frame.scene: frame.crc for frame in frames if frame.number == 0}
     for one, other in EQUAL:
+        if other in MODEL_SCENES and other not in crcs:
+            continue
         verdicts.check(crcs[one] == crcs[other], f"{one} is {crcs[one]}, {other} is {crcs[other]}")
 
 

@@ -16,7 +16,10 @@ MODELS = {
     "beetle": ("beetle.obj", ()),
     "newell": ("teapot.obj", ()),
 }
-SCENES = ("model-spot", "model-suzanne", "model-beetle", "model-teapot")
+SCENES = ("model-spot", "model-suzanne", "model-beetle", "model-teapot", "model-teapot-whole", "S4-clusters")
+MAKE_MESHES = ROOT / "firmware" / "apps" / "make_meshes.py"
+CLUSTERED = "clustered"
+"""Below the models' headers: those of the standard scenes in the order of clusters."""
 
 
 def convert(folder: Path) -> Path | None:
@@ -36,4 +39,16 @@ def convert(folder: Path) -> Path | None:
         if not header.is_file() or header.stat().st_mtime < max(file.stat().st_mtime for file in needed):
             command = [sys.executable, "-m", "edgeline", "convert", *words, "--name", name, "-o", header]
             output_of(command, {"PYTHONPATH": str(ROOT / "host")})
+    _cluster_scenes(folder / CLUSTERED, source.parent / "bench" / "scenes.npz", converter)
     return folder
+
+
+def _cluster_scenes(folder: Path, scenes: Path, converter: list[Path]) -> None:
+    """The standard scenes with clusters, made anew where the converter is newer. With the models come the scenes."""
+    made = folder / "s4.h"
+    if not scenes.is_file():
+        raise MissingToolError(f"{scenes.name} is not in {scenes.parent.name} beside the models")
+    folder.mkdir(exist_ok=True)
+    if not made.is_file() or made.stat().st_mtime < max(file.stat().st_mtime for file in converter):
+        command = [sys.executable, MAKE_MESHES, "--bench", scenes, "--clusters", "-o", folder]
+        output_of(command, {"PYTHONPATH": str(ROOT / "host")})
