@@ -341,7 +341,7 @@ def any_light(machine: Machine, _: list[Any]) -> Number:
 
 def any_lit(machine: Machine, arguments: list[Any]) -> Number:
     """lit_q8, proven above; in full light the colour itself: colour * 65280 + 127 = 255 * (256 colour) + 127."""
-    if machine.poly(arguments[1]).constant == 0xFF00:
+    if arguments[1].poly.constant == 0xFF00:
         return machine.exactly("uint16_t", arguments[0].poly * 256)
     return any_light(machine, arguments)
 

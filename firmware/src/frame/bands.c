@@ -210,11 +210,11 @@ static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, u
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
         return draw_any(painter, renderer, name, target);
     }
-    const carried_state *const state = el_list_at(&renderer->list, name);
-    el_triangle *const triangle = &((carried_state *)el_list_at(&renderer->list, name))->triangle;
+    carried_state *const state = el_list_at(&renderer->list, name);
+    el_triangle *const triangle = &state->triangle;
     const bool reaches_on = painter->goes_on && triangle->y_end > target->y_end;
-    const uint16_t order = state->order;
 #if EL_WITH_HIDDEN
+    const uint16_t order = state->order;
     if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
         is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
         /* It is set up anew where it comes into sight, if it does. */
