@@ -339,8 +339,15 @@ def any_light(machine: Machine, _: list[Any]) -> Number:
     return machine.number("uint16_t", "light", 0, 255 * 256)
 
 
+def any_lit(machine: Machine, arguments: list[Any]) -> Number:
+    """lit_q8, proven above; in full light the colour itself: colour * 65280 + 127 = 255 * (256 colour) + 127."""
+    if arguments[1].poly.constant == 0xFF00:
+        return machine.exactly("uint16_t", arguments[0].poly * 256)
+    return any_light(machine, arguments)
+
+
 FLAT = Subject(
-    GATHER, "flat_colour", flat_domain, flat_check, contracts={"light_q8": any_light, "lit_q8": any_light}, packs=True
+    GATHER, "flat_colour", flat_domain, flat_check, contracts={"light_q8": any_light, "lit_q8": any_lit}, packs=True
 )
 
 
@@ -464,7 +471,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("lit", GATHER, "rest + 1U + (rest >> 8)", "rest + (rest >> 8)"),
         ("lit, small code", GATHER, "n / 255U", "n / 256U"),
         ("flat", GATHER, "count + 128U", "count + 256U"),
-        ("flat", GATHER, "el_rgb565(own[0], own[1], own[2])", "el_rgb565(own[0], own[1], own[1])"),
+        ("flat", GATHER, "el_rgb565(rgb[0], rgb[1], rgb[2])", "el_rgb565(rgb[0], rgb[1], rgb[1])"),
         ("points", GATHER, "scaled == 0 ? 1U : scaled", "scaled"),
         ("points", GATHER, "w_shifts >> (5 * i)", "w_shifts >> (4 * i)"),
     ],

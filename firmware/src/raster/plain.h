@@ -37,7 +37,7 @@ static inline const el_point *el_plain_points(const el_list *list, const el_reco
 {
     const el_run *const run = el_list_run(list, record);
     const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
-    /* The material's own shading: where a debug view leaves out a texture, the colour is to be found. */
+    /* By its material and as it is shaded: a texture that is left out has a colour of its own. */
     if (draw->material->shading != EL_SHADE_FLAT || el_shading_of(draw) != EL_SHADE_FLAT ||
         (draw->material->flags & EL_MATERIAL_NO_DEPTH) != 0 || (EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
         return NULL;

@@ -150,6 +150,7 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
 
     const int32_t y_begin = el_max_i32(target->y, el_first_centre(y_of(&top)));
     const int32_t y_end = el_first_centre(y_of(&bottom));
+    const int32_t y_stop = el_min_i32(y_end, target->y_end);
     const el_small_shape shape = {
         .dx1 = x_of(&middle) - x_of(&top),
         .dy1 = y_of(&middle) - y_of(&top),
@@ -159,7 +160,7 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
     const int32_t x_least = el_min_i32(x_of(&top), el_min_i32(x_of(&middle), x_of(&bottom)));
     const int32_t x_most = el_max_i32(x_of(&top), el_max_i32(x_of(&middle), x_of(&bottom)));
     /* el_shape_is_small, by the box that is asked for here besides. */
-    if (y_begin >= y_end || shape.dy2 > EL_EDGE_SHORT || x_most - x_least > EL_EDGE_NARROW || x_least < 0 ||
+    if (y_begin >= y_stop || shape.dy2 > EL_EDGE_SHORT || x_most - x_least > EL_EDGE_NARROW || x_least < 0 ||
         x_most > target->width * EL_SUBPIXELS) {
         return false;
     }
@@ -175,7 +176,6 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
         .row = y_begin,
         .area = el_small_divisor_make(area),
     };
-    const int32_t y_stop = el_min_i32(y_end, target->y_end);
     const int32_t y_middle = el_first_centre(y_of(&middle));
     const el_edge_q20 straight = edge_between(&top, &bottom, y_begin);
     el_edge_q20 lower = straight;
