@@ -157,6 +157,7 @@ def subjects(core: str) -> dict[str, Subject]:
         of_product("el_product_high_u32", factors(UNSIGNED, UNSIGNED), high_check),
         product("el_product_down_11", down_domain, down_check),
         product("el_product_i32", factors(SIGNED_HALVES, SIGNED_HALVES), exact_check),
+        product("el_product_i32_u32", factors(SIGNED_HALVES, HALVES), exact_check, "el_product_i32_u32"),
         product("el_multiply_high_i32_u32", factors(SIGNED_HALVES, HALVES), high_check),
         product(
             "el_plane_times",
@@ -211,6 +212,7 @@ def test_areas_with_more_bits(bits: int) -> None:
         ("el_product_high_u32", FIXED_H, "(el_product_u64(a, b) >> 32)", "(el_product_u64(a, b) >> 33)"),
         ("el_product_down_11", FIXED_H, "a * (b >> 16) * (1 << 5)", "a * (b >> 16) * (1 << 4)"),
         ("el_product_i32", FIXED_H, "a_low * b_high + (int32_t)((uint32_t)first & 0xFFFFU)", "a_low * b_high + first"),
+        ("el_product_i32_u32", FIXED_H, "(a, b) << 32 | (uint32_t)a * b", "(a, b) << 32 | (uint32_t)a * (b + 1U)"),
         ("el_multiply_high_i32_u32", FIXED_H, "(first >> 16) + (int32_t)(second >> 16)", "(first >> 16)"),
         ("el_plane_times", "raster/plane.h", "(count + 0xFFFF) <= 2U * 0xFFFFU", "(count + 0xFFFF) <= 2U * 0x1FFFFU"),
         ("el_doubled_area", "raster/plane.h", "bias = 1U << 14", "bias = 1U << 15"),

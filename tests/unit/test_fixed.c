@@ -104,6 +104,9 @@ static void expect_products(const seeded *s, uint64_t a, int32_t b)
     if (el_product_high_u16(low, other & 0xFFFF) != (uint32_t)((uint64_t)low * (other & 0xFFFF) >> 16)) {
         fail_at(s, "%lu * %lu / 2^16", (unsigned long)low, (unsigned long)other & 0xFFFF);
     }
+    if (el_product_i32_u32((int32_t)low, other) != (int64_t)(int32_t)low * other) {
+        fail_at(s, "%ld times %lu", (long)(int32_t)low, (unsigned long)other);
+    }
     if (el_multiply_high_i32_u32((int32_t)low, other) != (int32_t)((int64_t)(int32_t)low * other >> 32)) {
         fail_at(s, "%ld * %lu / 2^32", (long)(int32_t)low, (unsigned long)other);
     }

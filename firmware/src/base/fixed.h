@@ -198,6 +198,16 @@ static inline int32_t el_multiply_high_i32_u32(int32_t a, uint32_t b)
 #endif
 }
 
+/* a * b. */
+static inline int64_t el_product_i32_u32(int32_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return (int64_t)((uint64_t)(uint32_t)el_multiply_high_i32_u32(a, b) << 32 | (uint32_t)a * b);
+#else
+    return (int64_t)a * b;
+#endif
+}
+
 /* floor(a * b / 2^11), which fits 32 bits. |a| < 2^15, 0 <= b. */
 static inline int32_t el_product_down_11(int32_t a, int32_t b)
 {
@@ -208,7 +218,7 @@ static inline int32_t el_product_down_11(int32_t a, int32_t b)
 #endif
 }
 
-/* floor(sqrt(x)), by binary digits (Woo's abacus method): no division, 32 steps at most. */
+/* floor(sqrt(x)). */
 uint32_t el_sqrt_u64(uint64_t x);
 
 /* value * factor / 2^shift, rounded to nearest, ties up. The product may take 95 bits.

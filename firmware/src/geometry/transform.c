@@ -146,7 +146,7 @@ static int64_t form_at_centre(const el_form *form, const el_mesh *mesh)
 {
     int64_t value = form->at[OFFSET];
     for (unsigned i = 0; i < 3; i++) {
-        value += form->at[i] * mesh->centre[i];
+        value += (int64_t)el_multiply_u64((uint64_t)form->at[i], mesh->centre[i]);
     }
     return value;
 }
@@ -163,7 +163,7 @@ static int64_t form_reach(const el_form *form, const el_mesh *mesh)
     uint64_t sum = 0;
     for (unsigned i = 0; i < 3; i++) {
         const uint32_t part = (uint32_t)(el_abs_u64(form->at[i]) >> shift) + 1U;
-        sum += (uint64_t)part * part;
+        sum += el_product_u64(part, part);
     }
     return (int64_t)((((uint64_t)el_sqrt_u64(sum) + 1U) << shift) * ((uint32_t)el_max_i32(mesh->radius, 1) + 1U));
 }
@@ -225,14 +225,15 @@ static bool sphere_is_outside(const el_view *view, const el_mesh *mesh, const el
 {
     static const el_form constant = {.at = {0, 0, 0, (int64_t)1 << FORM_BITS}};
     const el_form *const w = is_orthographic(view) ? &constant : &forms[2];
+    int64_t scaled[4] = {0};
     for (unsigned i = 0; i < 6; i++) {
         const el_factor factor = factors[i / 2];
         const int shift = el_max_i32(1, 32 - factor.exponent);
         const bool upper = (i & 1U) != 0;
         el_form plane;
         for (unsigned j = 0; j < 4; j++) {
-            const int64_t scaled = scale_by(forms[i / 2].at[j], factor, shift);
-            plane.at[j] = (upper ? -scaled : scaled) + (i < 4 ? el_shift_i64(w->at[j], shift) : 0);
+            scaled[j] = upper ? -scaled[j] : scale_by(forms[i / 2].at[j], factor, shift);
+            plane.at[j] = scaled[j] + (i < 4 ? el_shift_i64(w->at[j], shift) : 0);
         }
         if (i >= 4) {
             const int64_t limit_q16 = upper ? view->far_q16 : -(int64_t)view->near_q16;

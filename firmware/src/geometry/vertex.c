@@ -325,7 +325,13 @@ void el_transform_vertices(const el_transform *transform, const int16_t (*positi
 
 void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
-    el_transform_vertices(transform, (const int16_t(*)[3])position, 1, screen);
+#if defined(EL_PRODUCTS_IN_HALVES)
+    el_transform_vertices(transform, (const int16_t(*)[3])position, 1, screen); /* not a third copy of so much */
+#else
+    if (!transform_in_view(transform, position, screen, false)) {
+        project_again(transform, position, screen);
+    }
+#endif
 }
 #endif
 
