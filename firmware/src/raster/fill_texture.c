@@ -115,7 +115,7 @@ static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t sk
         at += el_multiply_u16(step, skipped);
     }
     const uint16_t *const end = colour + count;
-#pragma GCC unroll 4
+#pragma GCC unroll 2
     do {
         const uint32_t word = (uint32_t)(at >> 32);
         const uint32_t offset = (word >> p.turn | word << (-p.turn & 31U)) & p.mask;
