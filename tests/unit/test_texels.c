@@ -39,15 +39,18 @@ static int32_t any_range_q16(seeded *s, const el_texture *texture)
     return any_below(s, 2) == 0 ? half : -half;
 }
 
-/* Wider than the picture, so that v goes through its range along a row; in perspective, or flat. */
+/* Wider than the picture, so that v goes through its range along a row; in perspective, or flat. u is often the same
+ * everywhere and at a texel's edge, where the least that v carried into it would show. */
 static void any_corners(seeded *s, const el_texture *texture, el_corner corners[3])
 {
     const bool is_flat = any_below(s, 2) == 0;
+    const bool has_columns = any_below(s, 2) == 0;
+    const int32_t u_q16 = (int32_t)any_between(s, -1000, 1000) * 65536 - (int32_t)any_below(s, 4);
     const int32_t v_half = any_range_q16(s, texture);
     for (unsigned i = 0; i < 3; i++) {
         corners[i] = any_corner(s, SIZE * EL_SUBPIXELS / 2, 40 * SIXTEENTH);
         corners[i].w = is_flat ? 1U << 30 : corners[i].w;
-        corners[i].u_q16 = (int32_t)any_signed_of_bits(s, 26);
+        corners[i].u_q16 = has_columns ? (int32_t)any_signed_of_bits(s, 26) : u_q16;
     }
     corners[0].x = 0;
     corners[1].x = SIZE * EL_SUBPIXELS;
