@@ -300,6 +300,7 @@ def find_knot_domain(machine: Machine) -> list[Any]:
     pixels = machine.number("uint32_t", "pixels", 0, 4080)
     shift, reciprocal = machine.number("unsigned", "s", 1, 31), machine.number("uint32_t", "reciprocal", 2**31)
     step_reciprocal = machine.number("uint32_t", "step reciprocal")
+    walk = machine.struct("el_texture_walk", w_shift=shift.poly, reciprocal=reciprocal.poly)
     asked = (shift.poly, reciprocal.poly, before["down"], before["base_q16"])
     added: list[Number] = []
 
@@ -324,7 +325,7 @@ def find_knot_domain(machine: Machine) -> list[Any]:
 
     machine.contracts = {"el_multiply_u16": further, "knot": knot_there, "el_multiply_high_i32_u32": step}
     BEFORE[id(path)] = before
-    return [Pointer([axis]), pixels, shift, reciprocal, step_reciprocal]
+    return [Pointer([axis]), Pointer([walk]), pixels, step_reciprocal]
 
 
 STEP = 11  # a number to know it by

@@ -335,7 +335,7 @@ class Piece:
     there: Poly = field(default_factory=lambda: Poly.of(0))  # and at its end,
     asked: Poly = field(default_factory=lambda: Poly.of(0))  # so many pixels from the span's beginning
     length: Poly | None = None  # whose reciprocal is taken
-    knots: list[list[Any]] = field(default_factory=list)
+    knots: list[tuple[Any, ...]] = field(default_factory=list)
 
 
 PIECES: dict[int, Piece] = {}
@@ -362,7 +362,9 @@ def reciprocal_of(machine: Machine, arguments: list[Any]) -> Number:
 
 
 def knot_there(machine: Machine, arguments: list[Any]) -> None:
-    PIECES[id(machine.path)].knots.append([arguments[0].cell, *(argument.poly for argument in arguments[1:])])
+    axis, walk, at, _ = arguments
+    by = tuple(machine.poly(walk.cell, name) for name in ("w_shift", "reciprocal"))
+    PIECES[id(machine.path)].knots.append((axis.cell, at.poly, *by))
 
 
 def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
@@ -378,7 +380,7 @@ def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     path.prove(piece.most - result.poly, "the knot at its end is covered")
     path.prove(piece.asked - piece.at - result.poly, "W was found at its end", zero=True)
     require(piece.length is not None and (piece.length - result.poly).constant == 0, "over its length")
-    for name, (axis, at, shift, reciprocal, _) in zip("uv", piece.knots, strict=True):
+    for name, (axis, at, shift, reciprocal) in zip("uv", piece.knots, strict=True):
         require(axis is walk.content[name], f"the knot of {name}")
         path.prove(at - piece.at - result.poly, "at its end", zero=True)
         require((shift - machine.poly(walk, "w_shift")).constant == 0, "by W there")
@@ -628,7 +630,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("piece", FILE, "lengths[i] < most ? lengths[i] : most", "lengths[i]"),
         ("piece", FILE, "walk->w_log2_q8 < walk->enough_q8", "walk->w_log2_q8 < walk->enough_q8 - 1"),
         ("piece", FILE, "} while (i > 0 && walk->w_log2_q8", "} while (i > 0 && walk->w_log2_q8 + 1"),
-        ("piece", FILE, "find_knot(&walk->v, at + length", "find_knot(&walk->v, at"),
+        ("piece", FILE, "find_knot(&walk->v, walk, at + length", "find_knot(&walk->v, walk, at"),
         ("piece", FILE, "i > 0 ? i : 1", "i"),
         ("piece", FILE, "more_q8 = walk->limit_q8 + length_q8[i + 1U]", "more_q8 = walk->limit_q8 + length_q8[i]"),
         ("begin", FILE, "+ EL_W_MARGIN_Q32", ""),

@@ -43,7 +43,8 @@ static void write_all(el_depth_row *row, const uint16_t *end)
     uint64_t z = row->z;
     const uint64_t step = row->step;
     uint16_t *depth = row->next;
-#pragma GCC unroll 4
+    /* As many as a block has. */
+#pragma GCC unroll 8
     do {
         *depth++ = (uint16_t)(z >> 32);
         z += step;

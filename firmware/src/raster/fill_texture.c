@@ -12,9 +12,10 @@
  *
  *     | u | fraction of u | v, from the middle of its field | fraction of v | 0 |
  *
- * v has a field of 16 - width_log2 bits. If those are two more than a texture's height has, and v begins in their middle,
- * it stays within them for EL_MAX_PIECE pixels of less than a 256th of the field each, and never runs over into u. Turned
- * left by u's bits, the upper word ends in the index of a texel; by one bit more, in twice that, which is its offset. */
+ * v has a field of 16 - width_log2 bits. If those are two more than a texture's height has, and v begins in their middle, it
+ * is in the third quarter there; EL_MAX_PIECE pixels of less than a 256th of the field each lead by less than a quarter up
+ * or down, so it never runs over into u, where a single unit shows at a texel's edge (test_texels). Turned left by u's bits,
+ * the upper word ends in the index of a texel; by one bit more, in twice that, which is its offset. */
 typedef struct packing {
     uint32_t mask;             /* of an offset, in bytes */
     unsigned turn;             /* to the right, 0 to 31 */
@@ -78,7 +79,8 @@ static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t sk
         at += el_multiply_u16(step, skipped);
     }
     const uint16_t *const end = colour + count;
-#pragma GCC unroll 4
+    /* By twos: a piece has a dozen pixels, and what a longer loop needs to begin costs more than it saves. */
+#pragma GCC unroll 2
     do {
         const uint32_t word = (uint32_t)(at >> 32);
         const uint32_t offset = (word >> p.turn | word << (-p.turn & 31U)) & p.mask;

@@ -102,13 +102,13 @@ static inline void find_first_knot(el_texture_axis *axis, unsigned w_shift, uint
 }
 
 /* The knot there: u or v, where find_w was; and the step that leads there from the knot before, whose distance has that
- * reciprocal. */
-static EACH_PIECE void find_knot(el_texture_axis *axis, uint32_t pixels, unsigned w_shift, uint32_t reciprocal,
+ * reciprocal. W's numbers are taken from the walk: as arguments they would be in registers that products need. */
+static EACH_PIECE void find_knot(el_texture_axis *axis, const el_texture_walk *walk, uint32_t pixels,
                                  uint32_t step_reciprocal)
 {
     const uint64_t value = axis->value + el_multiply_u16(axis->dx, pixels);
     const int32_t from_q16 = axis->next_q16;
-    const int32_t to_q16 = knot(value, w_shift, reciprocal, axis->down, axis->base_q16);
+    const int32_t to_q16 = knot(value, walk->w_shift, walk->reciprocal, axis->down, axis->base_q16);
     axis->q16 = from_q16;
     axis->next_q16 = to_q16;
     /* The difference over the length, rounded down: exact below 2^26, 1,024 texels, and one unit too much at most beyond. */
@@ -276,7 +276,7 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
         length = shorten(walk, at, most);
     }
     const uint32_t step_reciprocal = reciprocal_of(length);
-    find_knot(&walk->u, at + length, walk->w_shift, walk->reciprocal, step_reciprocal);
-    find_knot(&walk->v, at + length, walk->w_shift, walk->reciprocal, step_reciprocal);
+    find_knot(&walk->u, walk, at + length, step_reciprocal);
+    find_knot(&walk->v, walk, at + length, step_reciprocal);
     return length;
 }
