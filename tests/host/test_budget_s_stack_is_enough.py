@@ -29,6 +29,8 @@ CORES = {
 ENTRIES = ("el_init", "el_frame_begin", "el_draw", "el_frame_next", "el_stream_poll", "el_tft_init", "el_ssd1306_init")
 JOBS = ("draw_parts.c:draw_part", "vertices.c:transform_part", "workers.c:draw_groups")
 """What el_workers has other cores call."""
+EDGE = re.compile(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"(?: label: "(.+):(\d+):)?')
+"""A call; those into gcc's library have no place."""
 INDIRECT = "__indirect_call"
 POINTED_AT = (r"/(panel|stream)/\w+\.c:(begin|rows|end|wait)$", r"^el_stream_drain$")
 """By level: what a call through a pointer may reach."""
@@ -56,9 +58,10 @@ class Graph:
             if node := re.match(r'node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(([^)]*)\)', line):
                 assert node[3] == "static", f"{node[1]} has a frame that is not known before it runs"
                 self.frames[node[1]] = int(node[2])
-            elif edge := re.match(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"(?: label: "(.+):(\d+):)?', line):
-                if edge[2] != INDIRECT or not BOARD_S_OWN.search(_line(edge[3], int(edge[4]))):
-                    self.calls.setdefault(edge[1], set()).add(edge[2])
+            elif edge := EDGE.match(line):
+                caller, called, path, number = edge.groups()
+                if called != INDIRECT or not BOARD_S_OWN.search(_line(path, int(number))):
+                    self.calls.setdefault(caller, set()).add(called)
 
     def named(self, entry: str) -> list[str]:
         """The whole names of a function, which the compiler may have cloned."""
