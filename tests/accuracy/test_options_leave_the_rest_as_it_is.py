@@ -65,8 +65,7 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> Drawn:
 
 @pytest.fixture(scope="module")
 def nothing_hidden(everything: Drawn, tmp_path_factory: pytest.TempPathFactory) -> Drawn:
-    """The same pictures; more pixels are counted, those of triangles that lie behind all that is drawn, which small code
-    draws."""
+    """The same pictures, of more pixels: triangles that lie behind all that is drawn are drawn, as small code does."""
     drawn = _draw(tmp_path_factory.mktemp("nothing_hidden"), "-DEL_WITH_HIDDEN=0")
     assert _pictures(drawn) == _pictures(everything)
     assert all(drawn[name][2] >= pixels for name, (_, _, pixels) in everything.items())

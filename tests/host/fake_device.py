@@ -92,6 +92,9 @@ class FakeDevice:
         self.rate = self.baud
         self.streaming = False
         self.credits = 0
+        self.late_credits = 0
+        """of those brought since START, what was for frames that had been sent before it"""
+        self._began = self.frame
         self._splitter = framing.Splitter()
         self._outgoing: list[tuple[int, bytes]] = []
         self._seq = self.seq
@@ -137,12 +140,15 @@ class FakeDevice:
         elif isinstance(body, protocol.Start):
             self.streaming = True
             self.credits = body.credits
+            self.late_credits = 0
+            self._began = self._frame
             self._mode = protocol.Mode(body.mode)
             self._codecs = body.codecs
             self._dropped = 0
             self._due[:] = self._alone = True
         elif isinstance(body, protocol.Ack):
             self.credits = min(255, self.credits + body.credits)
+            self.late_credits += (body.frame - self._began & 0x8000) >> 15
         elif isinstance(body, protocol.Key):
             self._due[body.y0 : body.y0 + body.lines] = self._alone = True
         elif isinstance(body, protocol.Stop):

@@ -2,8 +2,8 @@
  *
  * A board with another core implements el_workers and names it in el_config.workers. Then vertices are transformed and
  * bands are drawn by all cores at the same time, with the same pixels; everything else, and every call of a sink, stays on
- * the core that calls el_draw and el_frame_next. The simulator has an implementation with threads
- * (sim/threads.h). */
+ * the core that calls el_draw and el_frame_next. The simulator has an implementation with threads (sim/threads.h). A job
+ * takes up to 2,048 bytes of its core's stack, el_draw on the caller's up to 2,560. */
 #ifndef EL_FRAME_WORKERS_H
 #define EL_FRAME_WORKERS_H
 
