@@ -26,10 +26,7 @@ static inline el_values values_at(const el_triangle *triangle, uint32_t x, unsig
 /* A texel, all ones where there is no texture, in the light or the colours of the vertices. */
 static EL_APART_IF_SMALL uint16_t shaded(uint32_t texel, const el_values *v, uint32_t threshold_q16, unsigned kind)
 {
-    if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
-        return el_modulate(texel, v, threshold_q16, kind);
-    }
-    return (uint16_t)(((v->red >> 27 << 6 | v->green >> 26) << 5) | v->blue >> 27);
+    return el_modulate(texel, v, threshold_q16, kind);
 }
 
 /* What a textured triangle is drawn with. */
@@ -74,7 +71,9 @@ static EL_APART_IF_SMALL void draw_row(const el_triangle *triangle, brush *b, co
                     if ((kind & EL_FILL_TEXTURE) != 0) {
                         colour = el_texel_at(&b->source, u_q16, v_q16);
                     }
-                    if ((kind & EL_FILL_COLOURS) != 0) {
+                    if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) == 0 && (kind & EL_FILL_COLOURS) != 0) {
+                        colour = ((values.red >> 27 << 6 | values.green >> 26) << 5) | values.blue >> 27;
+                    } else if ((kind & EL_FILL_COLOURS) != 0) {
                         colour = shaded(colour, &values, el_dither_threshold_q16(x, (uint32_t)triangle->y), kind);
                     }
                 }
