@@ -135,6 +135,13 @@
 #define EL_APART __attribute__((noinline))
 #endif
 
+/* Functions that small code keeps apart, though they are called from one place, because that is shorter. */
+#if EL_SMALL_CODE
+#define EL_APART_IF_SMALL __attribute__((noinline))
+#else
+#define EL_APART_IF_SMALL
+#endif
+
 /* Functions that are compiled anew into each caller, with what is known there, where speed counts. */
 #if EL_SMALL_CODE
 #define EL_SPECIALISED inline

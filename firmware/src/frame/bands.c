@@ -57,18 +57,26 @@ static inline uint16_t order_of(const el_carrying *c, const el_list *list, uint1
     if (name == 0) {
         return NO_ORDER;
     }
-    return name < c->first_state ? name : ((const carried_state *)el_list_at(list, name))->order;
+    return !EL_WITH_CARRY || name < c->first_state ? name : ((const carried_state *)el_list_at(list, name))->order;
 }
 
-OF_WORKERS_TOO void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
+/* Lets a sink go on, or sleep. */
+static inline void wait_for_sink(const el_renderer *renderer, unsigned index)
 {
-    for (unsigned i = 0; i < EL_MAX_SINKS && !el_band_is_free(band); i++) {
-        const el_sink *const sink = renderer->config.sinks[i];
-        if (sink != NULL && sink->wait != NULL) {
-            sink->wait(sink->context);
-        }
+    const el_sink *const sink = renderer->config.sinks[index];
+    if (sink != NULL && sink->wait != NULL) {
+        sink->wait(sink->context);
     }
 }
+
+#if EL_WITH_WORKERS
+void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
+{
+    for (unsigned i = 0; i < EL_MAX_SINKS && !el_band_is_free(band); i++) {
+        wait_for_sink(renderer, i);
+    }
+}
+#endif
 
 /* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
 static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
@@ -83,13 +91,13 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
-        el_fill_u16(depth, painter->first_depth ? FARTHEST : EMPTY, pixels);
+        el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
         painter->band_is_open = 1;
     }
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
-OF_WORKERS_TOO void el_bands_hand_over(el_renderer *renderer, el_band *band)
+OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         band->held[i] = el_quiet_taker(renderer, i) != NULL;
@@ -217,7 +225,8 @@ static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const
 
 /* Draws a record's triangle, or what is carried on under that name. Returns the name under which it is carried on further;
  * 0 when it is not. */
-static uint16_t draw_named(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+static EL_APART_IF_SMALL uint16_t draw_named(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                             const el_target *target)
 {
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
         return draw_any(painter, renderer, name, target);
@@ -306,8 +315,10 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
 {
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
-    painter->first_depth = EL_WITH_PREPASS && renderer->config.depth_prepass && !painter->band_is_open &&
-                           renderer->config.view == EL_DEBUG_PICTURE;
+#if EL_WITH_PREPASS
+    painter->first_depth =
+        renderer->config.depth_prepass && !painter->band_is_open && renderer->config.view == EL_DEBUG_PICTURE;
+#endif
     const el_target target = open_band(painter, renderer, band);
     painter->goes_on = goes_on;
     uint16_t fresh = el_list_take_bin(list, band);
@@ -372,8 +383,8 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
         if (hand_over_bands && el_quiet_leaves_out(renderer, band, is_empty)) {
             continue;
         }
-        while (!painter->band_is_open && !el_band_is_free(buffer)) {
-            el_bands_wait_for_sinks(renderer, buffer);
+        for (unsigned i = 0; !painter->band_is_open && !el_band_is_free(buffer); i++) {
+            wait_for_sink(renderer, i % EL_MAX_SINKS);
         }
         el_painter_draw(painter, renderer, band, band + 1 < renderer->pass_end);
         if (hand_over_bands) {

@@ -7,7 +7,7 @@
 /* The painter of core `worker`, 0 being the caller's. */
 static inline el_painter *el_renderer_painter(el_renderer *renderer, unsigned worker)
 {
-    return worker == 0 ? &renderer->painter : &renderer->others[worker - 1U].painter;
+    return !EL_WITH_WORKERS || worker == 0 ? &renderer->painter : &renderer->others[worker - 1U].painter;
 }
 
 /* Counts a use of `bytes` of the list's memory in the peak. */

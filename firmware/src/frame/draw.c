@@ -164,7 +164,7 @@ static unsigned fan_root(const el_screen_vertex screen[], unsigned count)
     return 0;
 }
 
-static void clip_triangle(el_drawing *d, uint16_t index, uint8_t codes)
+static EL_APART_IF_SMALL void clip_triangle(el_drawing *d, uint16_t index, uint8_t codes)
 {
     const uint16_t *const vertices = d->mesh->triangles[index];
     const el_material *const material = d->state->material;
@@ -318,7 +318,11 @@ static uint32_t most_bytes(const el_list *list)
            EL_LIST_BYTES(sizeof(el_run)) + EL_LIST_BYTES(EL_DRAW_STATE_BYTES);
 }
 
-uint32_t el_drawing_run(el_drawing *d, uint32_t begin, uint32_t end)
+#if !EL_WITH_WORKERS && !EL_WITH_CLUSTERS
+static
+#endif
+    uint32_t
+    el_drawing_run(el_drawing *d, uint32_t begin, uint32_t end)
 {
     for (uint32_t i = begin; i < end; i++) {
 #if EL_CULLS_IN_VIEW

@@ -67,8 +67,10 @@ static inline bool el_vertices_are_cached(el_drawing *d, const uint16_t indices[
 }
 #endif
 
+#if EL_WITH_WORKERS || EL_WITH_CLUSTERS
 /* Draws the triangles [begin, end). Returns `end`; in parts, the first for which the list may have no room. */
 uint32_t el_drawing_run(el_drawing *d, uint32_t begin, uint32_t end);
+#endif
 
 #if EL_WITH_CLUSTERS
 /* Draws those clusters of the mesh that may be seen. Returns how many triangles the others have. */

@@ -31,7 +31,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
         return EL_ERROR_SIZE;
     }
-    const uint32_t workers = config->workers != NULL ? config->workers->count : 1U;
+    const uint32_t workers = EL_WITH_WORKERS && config->workers != NULL ? config->workers->count : 1U;
     const uint32_t least =
         EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, config->height, lines, workers);
     if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {

@@ -106,7 +106,8 @@ el_status el_tft_init(el_tft *panel, const el_tft_config *config)
     const el_tft_model *const model = config->model;
     *panel = (el_tft){
         .config = *config, .lie = el_panel_orientation(config->rotation, config->mirrored != 0), .stale = true};
-    if (config->shown != NULL && config->shown_bytes < EL_TFT_SHOWN_BYTES(el_tft_width(panel), el_tft_height(panel))) {
+    if (EL_WITH_REUSE && config->shown != NULL &&
+        config->shown_bytes < EL_TFT_SHOWN_BYTES(el_tft_width(panel), el_tft_height(panel))) {
         return EL_ERROR_MEMORY;
     }
     const uint8_t access = memory_access(panel);
@@ -183,6 +184,18 @@ static void blacken(const el_tft *panel)
     }
 }
 
+/* Of a frame that begins: all of it, or its next few lines and what is not shown yet. */
+static void choose_what_is_sent(el_tft *panel, bool all)
+{
+    panel->pixels_kept = 0;
+    panel->whole = panel->stale || all;
+    panel->stale = false;
+    panel->refresh = (uint16_t)(panel->refresh + EL_TFT_REFRESH_LINES);
+    if (panel->refresh >= panel->height) {
+        panel->refresh = 0;
+    }
+}
+
 static void begin(void *context, uint16_t width, uint16_t height)
 {
     el_tft *const panel = context;
@@ -196,12 +209,8 @@ static void begin(void *context, uint16_t width, uint16_t height)
     panel->width = width;
     panel->height = height;
     panel->next_line = NO_LINE;
-    panel->pixels_kept = 0;
-    panel->whole = panel->stale || changed;
-    panel->stale = false;
-    panel->refresh = (uint16_t)(panel->refresh + EL_TFT_REFRESH_LINES);
-    if (panel->refresh >= height) {
-        panel->refresh = 0;
+    if (EL_WITH_REUSE) {
+        choose_what_is_sent(panel, changed);
     }
 }
 
@@ -247,7 +256,8 @@ static el_shown_part find_part(const el_tft *panel, const el_band *band)
  * a command. Windows do not outlive a frame: a display that was disturbed takes the next one's. */
 static void set_window(el_tft *panel, unsigned y, const el_shown_part *part)
 {
-    if (panel->next_line == NO_LINE || part->left != panel->left || part->right != panel->right) {
+    const bool same_columns = !EL_WITH_REUSE || (part->left == panel->left && part->right == panel->right);
+    if (panel->next_line == NO_LINE || !same_columns) {
         set_columns(panel, part->left, part->right);
         panel->left = part->left;
         panel->right = part->right;
@@ -268,10 +278,12 @@ static void rows(void *context, el_band *band, unsigned slot)
     }
     const el_shown_part part = find_part(panel, band);
     const size_t count = ((size_t)part.right - part.left) * ((size_t)part.bottom - part.top);
-    panel->pixels_kept += (uint32_t)((size_t)band->lines * band->width - count);
-    if (count == 0) {
-        el_band_release(band, slot);
-        return;
+    if (EL_WITH_REUSE) {
+        panel->pixels_kept += (uint32_t)((size_t)band->lines * band->width - count);
+        if (count == 0) {
+            el_band_release(band, slot);
+            return;
+        }
     }
     /* The bus may still be sending the other band, so each has its own entry. */
     struct el_tft_loan *const loan = &panel->loans[panel->next_loan];

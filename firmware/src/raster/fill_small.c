@@ -23,25 +23,10 @@ static inline el_values values_at(const el_triangle *triangle, uint32_t x, unsig
     return v;
 }
 
-static inline void next_column(el_values *v, const el_triangle *triangle, unsigned kind)
-{
-    if ((kind & EL_FILL_DEPTH) != 0) {
-        v->z += triangle->z.dx;
-    }
-    if ((kind & EL_FILL_COLOURS) != 0) {
-        v->red += triangle->rgb[0].dx;
-        v->green += triangle->rgb[1].dx;
-        v->blue += triangle->rgb[2].dx;
-    }
-}
-
 /* A texel, all ones where there is no texture, in the light or the colours of the vertices. */
-static inline uint16_t shaded(uint32_t texel, const el_values *v, uint32_t threshold_q16, unsigned kind)
+static EL_APART_IF_SMALL uint16_t shaded(uint32_t texel, const el_values *v, uint32_t threshold_q16, unsigned kind)
 {
-    if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
-        return el_modulate(texel, v, threshold_q16, kind);
-    }
-    return (uint16_t)(((v->red >> 27 << 6 | v->green >> 26) << 5) | v->blue >> 27);
+    return el_modulate(texel, v, threshold_q16, kind);
 }
 
 /* What a textured triangle is drawn with. */
@@ -51,10 +36,11 @@ typedef struct brush {
 } brush;
 
 /* Pixels [x, x_end) of the triangle's next row, in pieces along which texture coordinates are linear. */
-static void draw_row(const el_triangle *triangle, brush *b, const el_cursor *cursor, uint32_t x, uint32_t x_end)
+static EL_APART_IF_SMALL void draw_row(const el_triangle *triangle, brush *b, const el_cursor *cursor, uint32_t x,
+                                       uint32_t x_end)
 {
     const unsigned kind = triangle->kind;
-    const bool counts_hidden = (kind & EL_FILL_COUNT) != 0 && (kind & EL_FILL_DEPTH) != 0;
+    const bool counts_hidden = EL_WITH_DEBUG_VIEWS && (kind & EL_FILL_COUNT) != 0 && (kind & EL_FILL_DEPTH) != 0;
     const uint32_t last = x_end - 1U;
     const uint32_t begin = x;
     uint32_t piece_end = x_end;
@@ -80,23 +66,32 @@ static void draw_row(const el_triangle *triangle, brush *b, const el_cursor *cur
             if (el_passes(&values, at, kind) != counts_hidden) {
                 uint16_t *const pixel = el_colour_at(cursor, at);
                 uint32_t colour = triangle->surface.colour;
-                if ((kind & EL_FILL_COUNT) != 0) {
-                    colour = *pixel + 1U;
-                } else if ((kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) != 0) {
-                    colour = 0xFFFF;
+                if (kind > EL_FILL_DEPTH) {
+                    colour = (kind & EL_FILL_COUNT) != 0 ? *pixel + 1U : 0xFFFFU;
                     if ((kind & EL_FILL_TEXTURE) != 0) {
                         colour = el_texel_at(&b->source, u_q16, v_q16);
                     }
-                    if ((kind & EL_FILL_COLOURS) != 0) {
+                    if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) == 0 && (kind & EL_FILL_COLOURS) != 0) {
+                        colour = ((values.red >> 27 << 6 | values.green >> 26) << 5) | values.blue >> 27;
+                    } else if ((kind & EL_FILL_COLOURS) != 0) {
                         colour = shaded(colour, &values, el_dither_threshold_q16(x, (uint32_t)triangle->y), kind);
                     }
                 }
                 *pixel = (uint16_t)colour;
             }
-            next_column(&values, triangle, kind);
-            if ((kind & EL_FILL_TEXTURE) != 0) {
-                u_q16 += (uint32_t)b->walk.u.step_q16;
-                v_q16 += (uint32_t)b->walk.v.step_q16;
+            if ((kind & EL_FILL_DEPTH) != 0) {
+                values.z += triangle->z.dx;
+            }
+            if (kind > EL_FILL_DEPTH) {
+                if ((kind & EL_FILL_COLOURS) != 0) {
+                    values.red += triangle->rgb[0].dx;
+                    values.green += triangle->rgb[1].dx;
+                    values.blue += triangle->rgb[2].dx;
+                }
+                if ((kind & EL_FILL_TEXTURE) != 0) {
+                    u_q16 += (uint32_t)b->walk.u.step_q16;
+                    v_q16 += (uint32_t)b->walk.v.step_q16;
+                }
             }
         }
     }
@@ -107,7 +102,7 @@ static void plane_next_row(el_plane *plane)
     plane->value += plane->dy;
 }
 
-static inline void next_row(el_triangle *triangle, unsigned kind)
+static EL_APART_IF_SMALL void next_row(el_triangle *triangle, unsigned kind)
 {
     if ((kind & EL_FILL_DEPTH) != 0) {
         plane_next_row(&triangle->z);

@@ -200,7 +200,7 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     if (plain == NULL) {
         if (shading == EL_SHADE_FLAT) {
             surface->colour = flat_colour(draw, record->index, corners);
-        } else if (shading != EL_SHADE_OVERDRAW) {
+        } else if (el_has_texture(shading) || el_has_colours(shading)) {
             gather_attributes(draw, record, kind, corners);
         }
     }

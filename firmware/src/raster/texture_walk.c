@@ -133,7 +133,7 @@ static bool is_steep(const el_plane *plane)
     return el_abs_u64((int64_t)plane->dx) >= 1ULL << (32 + STEEP_LOG2);
 }
 
-static void start_axis(el_texture_axis *axis, const el_plane *plane, int32_t base_q16, unsigned shift)
+static EL_APART_IF_SMALL void start_axis(el_texture_axis *axis, const el_plane *plane, int32_t base_q16, unsigned shift)
 {
     axis->dx = plane->dx;
     axis->base_q16 = base_q16;
@@ -176,6 +176,21 @@ static void find_limit(el_texture_walk *walk)
     walk->limit_q8 = (int32_t)((uint32_t)(three + 3 * 4096 + 2) * 0xAAABU >> 17) - 4096;
 }
 
+#if EL_SMALL_CODE
+static bool is_enough(const el_texture_walk *walk, uint32_t i)
+{
+    return walk->w_log2_q8 >= walk->limit_q8 + length_q8[i];
+}
+
+static inline void find_first_length(el_texture_walk *walk)
+{
+    uint32_t i = LENGTHS - 1;
+    while (i > 0 && !is_enough(walk, i)) {
+        i--;
+    }
+    walk->length = i;
+}
+#else
 /* Pieces of lengths[i], until W is enough for longer ones, or at a piece's end not enough for these. */
 static void set_length(el_texture_walk *walk, uint32_t i)
 {
@@ -189,6 +204,22 @@ static void set_length(el_texture_walk *walk, uint32_t i)
         walk->more_q8 = walk->limit_q8 + length_q8[i + 1U];
     }
 }
+
+/* The longest piece for which W here is enough: the first one where W grows; where it falls, the first is no longer.
+ * It is looked for from that of the row above on. */
+static inline void find_first_length(el_texture_walk *walk)
+{
+    uint32_t i = walk->first_length;
+    while (i < LENGTHS - 1 && walk->w_log2_q8 >= walk->limit_q8 + length_q8[i + 1]) {
+        i++;
+    }
+    while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]) {
+        i--;
+    }
+    walk->first_length = i;
+    set_length(walk, (int64_t)walk->w_dx < 0 && i == 0 ? 1 : i);
+}
+#endif
 
 void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, uint32_t x, uint32_t pixels)
 {
@@ -204,17 +235,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
     if (walk->is_curved) {
         find_limit(walk);
     }
-    /* The longest piece for which W here is enough: the first one where W grows; where it falls, the first is no longer.
-     * It is looked for from that of the row above on. */
-    uint32_t i = walk->first_length;
-    while (i < LENGTHS - 1 && walk->w_log2_q8 >= walk->limit_q8 + length_q8[i + 1]) {
-        i++;
-    }
-    while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]) {
-        i--;
-    }
-    walk->first_length = i;
-    set_length(walk, (int64_t)walk->w_dx < 0 && i == 0 ? 1 : i);
+    find_first_length(walk);
 }
 
 /* 2^32 / length, rounded up, modulo 2^32: of a piece of one pixel no step is needed. */
@@ -241,6 +262,28 @@ static inline uint32_t reciprocal_of(uint32_t length)
 }
 #endif
 
+#if EL_SMALL_CODE
+/* Finds W at the piece's end, whose length it returns. W grows, and so do pieces; or it falls, and is not enough for them at
+ * their end. */
+static inline uint32_t find_end(el_texture_walk *walk, uint32_t at, uint32_t most)
+{
+    const bool falls = (int64_t)walk->w_dx < 0;
+    uint32_t i = walk->length;
+    while (!falls && i < LENGTHS - 1 && is_enough(walk, i + 1U)) {
+        i++;
+    }
+    uint32_t length;
+    for (;; i--) {
+        length = lengths[i] < most ? lengths[i] : most;
+        find_w(walk, at + length);
+        if (!falls || i == 0 || is_enough(walk, i)) {
+            break;
+        }
+    }
+    walk->length = i;
+    return length;
+}
+#else
 /* W has grown, and so do pieces. */
 static __attribute__((noinline)) void lengthen(el_texture_walk *walk)
 {
@@ -265,7 +308,7 @@ static __attribute__((noinline)) uint32_t shorten(el_texture_walk *walk, uint32_
     return length;
 }
 
-uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+static inline uint32_t find_end(el_texture_walk *walk, uint32_t at, uint32_t most)
 {
     if (walk->w_log2_q8 >= walk->more_q8) {
         lengthen(walk);
@@ -275,6 +318,13 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
     if (walk->w_log2_q8 < walk->enough_q8) {
         length = shorten(walk, at, most);
     }
+    return length;
+}
+#endif
+
+uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+{
+    const uint32_t length = find_end(walk, at, most);
     const uint32_t step_reciprocal = reciprocal_of(length);
     find_knot(&walk->u, walk, at + length, step_reciprocal);
     find_knot(&walk->v, walk, at + length, step_reciprocal);
