@@ -307,8 +307,11 @@ class Machine(Arithmetic):
         if node.op in ("p++", "p--", "++", "--"):
             cell = self.lvalue(node.expr)
             old = self.load(cell)
-            one = Number(INT, Poly.of(1))
-            new = self.binary("+" if "+" in node.op else "-", old, one, node)
+            up = "+" in node.op
+            if isinstance(old, Pointer):
+                new: Any = Pointer(old.cells, old.index + (1 if up else -1))
+            else:
+                new = self.binary("+" if up else "-", old, Number(INT, Poly.of(1)), node)
             self.store(cell, new, node)
             return old if node.op.startswith("p") else self.load(cell)
         if node.op == "!":
@@ -336,7 +339,10 @@ class Machine(Arithmetic):
             offset = self.path.choose(right.poly)
             return Pointer(left.cells, left.index + (offset if node.op == "+" else -offset))
         if isinstance(left, Pointer) or isinstance(right, Pointer):
-            return self.boolean((left is right) == (node.op == "=="))
+            same = left is right
+            if isinstance(left, Pointer) and isinstance(right, Pointer):
+                same = same or (left.cells is right.cells and left.index == right.index)
+            return self.boolean(same == (node.op == "=="))
         return self.binary(node.op, left, right, node)
 
     def _expr_Assignment(self, node: c_ast.Assignment) -> Any:

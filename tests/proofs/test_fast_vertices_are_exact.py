@@ -81,6 +81,8 @@ def any_vertex(machine: Machine) -> tuple[Any, Any, Any]:
     transform = machine.struct("el_transform", near=near, far=far, orthographic=orthographic, constant_w=w)
     machine.put(transform.content["size"], [path.atom("width", 1, 2040), path.atom("height", 1, 2040)])
     machine.put(transform.content["guard_shift"], [0, 0])
+    if "over" in transform.content:
+        machine.put(transform.content["over"], path.choose(path.atom("over", 0, 1)))
     vertex = machine.struct("el_clip_vertex", **{axis: path.atom(axis, *I32) for axis in "xyd"})
     # In perspective w is d, in orthographic projection a constant.
     machine.put(vertex.content["w"], w if orthographic else machine.poly(vertex, "d"))
@@ -150,6 +152,9 @@ class Asked:
         return machine.exactly("_Bool", fast)
 
     def form_value(self, machine: Machine, arguments: list[Any]) -> Number:
+        if arguments[3].poly.known:
+            require("over" in self.transform.content, "the core has an upper sum")
+            require(machine.poly(self.transform, "over").known == 0, "no bit is shifted out")
         return machine.exactly("int32_t", machine.poly(self.vertex, "xyd"[arguments[1].poly.known]))
 
     def position_of(self, _: Machine, __: list[Any]) -> Any:
@@ -234,7 +239,7 @@ def in_view_check(machine: Machine, _: list[Any], __: Any) -> None:
 
 
 def vertices(core: str) -> Subject:
-    modular = ["el_transform_vertices", "transform_in_view"]
+    modular = ["el_transform_vertices", "transform_vertices", "transform_in_view"]
     return Subject(VERTEX, "el_transform_vertices", several_domain, in_view_check, modular, core=core)
 
 

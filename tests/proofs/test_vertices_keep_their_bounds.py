@@ -76,7 +76,8 @@ def form_domain(core: str) -> Any:
         for name, value in members.items():
             machine.put((of_row if name in of_row else transform.content)[name], value)
         place = machine.struct("el_place", x=position[0], y=position[1], z=position[2])
-        return [Pointer([transform]), machine.exactly("uint32_t", 0), place]
+        plain = core == ARMV6M and shift <= 15 and path.choose(path.atom("plain", 0, 1))
+        return [Pointer([transform]), machine.exactly("uint32_t", 0), place, machine.exactly("_Bool", int(plain))]
 
     return domain
 
@@ -540,6 +541,7 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
         ("form_value", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
         ("form_value", VERTEX, "(32 - transform->shift)", "(31 - transform->shift)"),
         ("form_value, armv6m", VERTEX, "(uint32_t)(low >> transform->split)", "((uint32_t)low >> transform->split)"),
+        ("form_value, armv6m", VERTEX, "plain ? row->whole :", "!plain ? row->whole :"),
         ("form_value, armv6m", "geometry/transform.h", "EL_ROW_MOST = 0x70000000", "EL_ROW_MOST = 0x7FFFFFFF"),
         ("rows, armv6m", VERTEX, "shift < 15U ? shift : 15U", "shift < 16U ? shift : 16U"),
         ("rows, armv6m", VERTEX, "(1 << (split - 1U))) >> split", "(1 << (split - 1U)) + 1) >> split"),

@@ -53,7 +53,7 @@ static inline uint32_t el_reciprocal_u16(uint32_t upper)
 static inline uint32_t el_reciprocal_near(uint32_t d)
 {
     const uint32_t first = el_reciprocal_u16((d >> 16) + 1U); /* below 2^16 */
-    const uint32_t product = first * (d >> 16) + ((first * (d & 0xFFFFU)) >> 16);
+    const uint32_t product = el_product_high_u16(d, first);
     const uint32_t left = 0x7FFFFFFFU - product; /* below 1.0001 * 2^17 */
     return (first << 16) + ((first * (left >> 2)) >> 13);
 }

@@ -4,6 +4,7 @@ _Static_assert((-3 >> 1) == -2, "Edgeline needs arithmetic right shifts");
 
 /* NOLINTBEGIN(readability-redundant-declaration): where the copy lies that small code shares. */
 EL_INLINE_HERE unsigned el_normalise(uint32_t *x);
+EL_INLINE_HERE uint64_t el_multiply_u16(uint64_t a, uint32_t b);
 EL_INLINE_HERE uint64_t el_multiply_u64(uint64_t a, int32_t b);
 EL_INLINE_HERE uint64_t el_product_u64(uint32_t a, uint32_t b);
 /* NOLINTEND(readability-redundant-declaration) */

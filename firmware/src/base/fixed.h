@@ -78,7 +78,7 @@ static inline int32_t el_max_i32(int32_t a, int32_t b)
 }
 
 /* a * b modulo 2^64, b < 2^16. */
-static inline uint64_t el_multiply_u16(uint64_t a, uint32_t b)
+EL_INLINE uint64_t el_multiply_u16(uint64_t a, uint32_t b)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
     const uint32_t low = (uint32_t)a;

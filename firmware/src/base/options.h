@@ -127,6 +127,14 @@
 /* Functions that are called rarely, from where speed counts: never merged with their callers. */
 #define EL_SELDOM __attribute__((noinline, cold))
 
+/* Functions that are kept apart where speed counts, so that what is rare takes no registers from what is frequent; in small
+ * code they are merged where that is shorter. */
+#if EL_SMALL_CODE
+#define EL_APART
+#else
+#define EL_APART __attribute__((noinline))
+#endif
+
 /* Functions that are compiled anew into each caller, with what is known there, where speed counts. */
 #if EL_SMALL_CODE
 #define EL_SPECIALISED inline

@@ -4,13 +4,23 @@
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
 #include "frame/quiet.h"
+#include "raster/plain.h"
 #include "raster/small_triangle.h"
+
+/* What frame/workers.c calls too, if there are workers. */
+#if EL_WITH_WORKERS
+#define OF_WORKERS_TOO
+#else
+#define OF_WORKERS_TOO static
+#endif
 
 /* What is carried, see painter.h. */
 typedef struct carried_state {
     uint16_t next;
     uint16_t order; /* name of the record, or of its share in a group */
+#if EL_WITH_HIDDEN
     uint16_t depth; /* of its nearest corner */
+#endif
     el_triangle triangle;
 } carried_state;
 
@@ -50,7 +60,7 @@ static inline uint16_t order_of(const el_carrying *c, const el_list *list, uint1
     return name < c->first_state ? name : ((const carried_state *)el_list_at(list, name))->order;
 }
 
-void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
+OF_WORKERS_TOO void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS && !el_band_is_free(band); i++) {
         const el_sink *const sink = renderer->config.sinks[i];
@@ -79,7 +89,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
-void el_bands_hand_over(el_renderer *renderer, el_band *band)
+OF_WORKERS_TOO void el_bands_hand_over(el_renderer *renderer, el_band *band)
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         band->held[i] = el_quiet_taker(renderer, i) != NULL;
@@ -106,54 +116,17 @@ static bool is_hidden(el_painter *painter, const el_target *target, const el_sur
     el_count(&painter->stats->triangles_hidden, 1);
     return true;
 }
-#endif
 
 static uint16_t nearest(const el_corner corners[3])
 {
     return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
 }
-
-#if EL_WITH_SMALL_PLANES
-/* draw_record for what small_triangle.h does at once; nearly all records of a mesh without light or texture. Returns
- * false, and has done nothing, for others. */
-static inline bool draw_small(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_record *record,
-                              const el_target *target, uint16_t *carried_name)
-{
-    uint16_t colour;
-    const el_point *const points = el_list_plain_points(&renderer->list, record, &colour);
-    if (points == NULL || renderer->config.view != EL_DEBUG_PICTURE) {
-        return false;
-    }
-#if EL_WITH_HIDDEN
-    if (el_hidden_is_likely(painter->hidden, target, painter->stats)) {
-        return false;
-    }
-#endif
-    const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
-    if (!EL_WITH_CARRY || !painter->goes_on || el_first_centre(y_last) <= target->y_end) {
-        *carried_name = 0;
-        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
-    }
-    const uint16_t state_name = take_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT);
-    if (state_name == 0) {
-        *carried_name = name;
-        return el_small_triangle_draw(points, colour, target, painter->stats, NULL);
-    }
-    carried_state *const state = el_list_at(&renderer->list, state_name);
-    if (!el_small_triangle_draw(points, colour, target, painter->stats, &state->triangle)) {
-        give_state(&painter->carrying, &renderer->list, EL_SHADE_FLAT, state_name);
-        return false;
-    }
-    state->order = name;
-    state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
-    *carried_name = state_name;
-    return true;
-}
 #endif
 
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
  * stay. Returns the name under which it is carried on; 0 when it is not. */
-static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                   const el_target *target)
 {
     const el_list *const list = &renderer->list;
     const el_record *const record = el_list_record(list, name);
@@ -164,12 +137,6 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     el_corner corners[3];
     el_surface surface;
     el_count(&painter->stats->setups, 1);
-#if EL_WITH_SMALL_PLANES
-    uint16_t drawn_name;
-    if (draw_small(painter, renderer, name, record, target, &drawn_name)) {
-        return drawn_name;
-    }
-#endif
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
@@ -189,7 +156,9 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
         if (state_name != 0) {
             carried_state *const state = el_list_at(list, state_name);
             state->order = name;
+#if EL_WITH_HIDDEN
             state->depth = nearest(corners);
+#endif
             triangle = &state->triangle;
         }
     }
@@ -206,11 +175,52 @@ static uint16_t draw_record(el_painter *painter, const el_renderer *renderer, ui
     return state_name != 0 ? state_name : name;
 }
 
-/* Draws what is carried on under that name. Returns the name under which it is carried on further; 0 when it is not. */
-static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+#if EL_WITH_SMALL_PLANES
+/* The same, for the records that are listed in this band: nearly all of a mesh without light or texture are done at once. */
+static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                      const el_target *target)
+{
+    const el_list *const list = &renderer->list;
+    uint16_t colour;
+    const el_point *const points = el_plain_points(list, el_list_record(list, name), &colour);
+    bool is_other = points == NULL || (EL_WITH_DEBUG_VIEWS && renderer->config.view != EL_DEBUG_PICTURE);
+#if EL_WITH_HIDDEN
+    is_other = is_other || el_hidden_is_likely(painter->hidden, target, painter->stats);
+#endif
+    if (!is_other) {
+        const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
+        uint16_t state_name = 0;
+        uint16_t carried_name = 0;
+        el_triangle *rest = NULL;
+        if (EL_WITH_CARRY && painter->goes_on && el_first_centre(y_last) > target->y_end) {
+            state_name = take_state(&painter->carrying, list, EL_SHADE_FLAT);
+            carried_name = name;
+            if (state_name != 0) {
+                carried_state *const state = el_list_at(list, state_name);
+                state->order = name;
+                state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+                rest = &state->triangle;
+                carried_name = state_name;
+            }
+        }
+        if (el_small_triangle_draw(points, colour, target, painter->stats, rest)) {
+            el_count(&painter->stats->setups, 1);
+            return carried_name;
+        }
+        if (state_name != 0) {
+            give_state(&painter->carrying, list, EL_SHADE_FLAT, state_name);
+        }
+    }
+    return draw_any(painter, renderer, name, target);
+}
+#endif
+
+/* Draws a record's triangle, or what is carried on under that name. Returns the name under which it is carried on further;
+ * 0 when it is not. */
+static uint16_t draw_named(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
 {
     if (!EL_WITH_CARRY || name < painter->carrying.first_state) {
-        return draw_record(painter, renderer, name, target);
+        return draw_any(painter, renderer, name, target);
     }
     carried_state *const state = el_list_at(&renderer->list, name);
     el_triangle *const triangle = &state->triangle;
@@ -232,7 +242,8 @@ static uint16_t draw_carried(el_painter *painter, const el_renderer *renderer, u
     return 0;
 }
 
-void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats)
+OF_WORKERS_TOO void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end,
+                                     el_stats *stats)
 {
     painter->stats = stats;
     painter->carrying =
@@ -290,7 +301,7 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
 
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
-void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
+OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
@@ -313,18 +324,23 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t 
     uint16_t carried_order = order_of(c, list, carried);
     uint16_t *last = &c->first;
     for (;;) {
-        uint16_t name;
-        if ((fresh == 0 ? NO_ORDER : fresh) < carried_order) {
-            const uint16_t next = *(const uint16_t *)el_list_at(list, fresh);
-            name = draw_record(painter, renderer, fresh, &target);
+        const bool is_fresh = (fresh == 0 ? NO_ORDER : fresh) < carried_order;
+        const uint16_t listed = is_fresh ? fresh : carried;
+        if (listed == 0) {
+            break;
+        }
+        const uint16_t next = *(const uint16_t *)el_list_at(list, listed);
+#if EL_WITH_SMALL_PLANES
+        const uint16_t name =
+            is_fresh ? draw_record(painter, renderer, listed, &target) : draw_named(painter, renderer, listed, &target);
+#else
+        const uint16_t name = draw_named(painter, renderer, listed, &target);
+#endif
+        if (is_fresh) {
             fresh = next;
-        } else if (carried != 0) {
-            const uint16_t next = *(const uint16_t *)el_list_at(list, carried);
-            name = draw_carried(painter, renderer, carried, &target);
+        } else {
             carried = next;
             carried_order = order_of(c, list, carried);
-        } else {
-            break;
         }
         if (name != 0) {
             *last = name;

@@ -19,6 +19,7 @@ void el_bands_flush(el_renderer *renderer);
 /* Draws the pass' bands and hands them over. */
 void el_bands_finish(el_renderer *renderer);
 
+#if EL_WITH_WORKERS
 /* For frame/workers.c: */
 
 /* Lets `painter` carry what it may in bytes [begin, end) of the list's memory, and count in `stats`. */
@@ -34,7 +35,6 @@ void el_bands_hand_over(el_renderer *renderer, el_band *band);
 /* Lets the sinks go on, or sleep, while `band` is theirs. */
 void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band);
 
-#if EL_WITH_WORKERS
 /* el_bands_finish with several workers. Empties no list. */
 void el_workers_draw_pass(el_renderer *renderer);
 #endif

@@ -38,9 +38,9 @@ typedef struct el_painter {
     uint32_t band_work; /* this frame's before the open band, see EL_DEBUG_BANDS */
 #endif
     el_stats *stats;
+    el_carrying carrying;
     el_band bands[2];
     uint16_t *depth[2]; /* of each band; one and the same where there is one worker */
-    el_carrying carrying;
 #if EL_WITH_HIDDEN
     el_hidden *hidden; /* of the band that is drawn into */
 #endif

@@ -10,6 +10,15 @@ enum {
     VERTICES_SHARED = 64 /* from so many on, the workers' start is worth it */
 };
 
+#if EL_SMALL_CODE
+/* Transforms a vertex to its slot. */
+static void transform_one(el_drawing *d, uint32_t index)
+{
+    d->transformed++;
+    el_transform_vertex(&d->state->transform, d->mesh->positions[index], &d->vertices[index & d->slot_mask]);
+}
+#endif
+
 static void transform_run(const el_drawing *d, uint32_t first, uint32_t count, el_screen_vertex *screen)
 {
 #if EL_SMALL_CODE
@@ -93,18 +102,39 @@ void el_vertices_place(el_drawing *d)
         if (d->by_clusters) {
             leave_vertices(d);
         } else {
+#if EL_SMALL_CODE
+            for (uint32_t i = 0; i < d->mesh->vertex_count; i++) {
+                transform_one(d, i);
+            }
+#else
             el_vertices_transform(d, 0, d->mesh->vertex_count, d->vertices);
+#endif
         }
     } else {
         el_vertices_begin_cache(d); /* el_draw saw to it that there is room for a vertex at least */
     }
 }
 
+#if EL_SMALL_CODE
+void el_vertices_find(el_drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
+{
+    for (unsigned i = 0; i < 3; i++) {
+        const uint16_t index = indices[i];
+        const uint32_t slot = index & d->slot_mask;
+        if (!d->direct && d->cached[slot] != index) {
+            d->cached[slot] = index;
+            transform_one(d, index);
+        }
+        copies[i] = d->vertices[slot];
+        v[i] = &copies[i];
+    }
+}
+#else
 void el_vertices_cache(el_drawing *d, uint32_t index)
 {
     const uint32_t slot = index & d->slot_mask;
     uint32_t count = 1;
-    if (!EL_SMALL_CODE && index == d->next_vertex) {
+    if (index == d->next_vertex) {
         const uint32_t left = d->mesh->vertex_count - index;
         const uint32_t slots_left = d->slot_mask + 1U - slot;
         count = left < slots_left ? left : slots_left;
@@ -119,11 +149,7 @@ void el_vertices_cache(el_drawing *d, uint32_t index)
 
 void el_vertices_find(el_drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3])
 {
-#if EL_SMALL_CODE
-    const bool in_place = false;
-#else
     const bool in_place = d->direct ? !d->in_parts : el_vertices_are_cached(d, indices);
-#endif
     for (unsigned i = 0; i < 3; i++) {
         const uint32_t slot = indices[i] & d->slot_mask;
         if (!d->direct && d->cached[slot] != indices[i]) {
@@ -136,3 +162,4 @@ void el_vertices_find(el_drawing *d, const uint16_t indices[3], el_screen_vertex
         }
     }
 }
+#endif

@@ -53,13 +53,14 @@ void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3]
 #define READ_AGAIN() ((void)0)
 #endif
 
-static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p)
+static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p, bool plain)
 {
     /* The lower sum is below 3 * 2^14 * 2^15 + 2^15. The upper one with what is carried is the whole one over 2^split:
-     * where that is 2^15 it is below EL_ROW_MOST + 2^17, and else it is not shifted and as good modulo 2^32. */
+     * where that is 2^15 it is below EL_ROW_MOST + 2^17, and else it is not shifted and as good modulo 2^32, and there
+     * is no upper rest. */
     const el_row *const row = &transform->rows[i];
     int32_t low = row->rest_low;
-    uint32_t high = row->rest_high;
+    uint32_t high = plain ? row->whole : row->rest_high;
     low += row->low[0] * p.x;
     low += row->low[1] * p.y;
     low += row->low[2] * p.z;
@@ -67,9 +68,15 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, el_p
     high += (uint32_t)row->high[0] * (uint32_t)p.x;
     high += (uint32_t)row->high[1] * (uint32_t)p.y;
     high += (uint32_t)row->high[2] * (uint32_t)p.z;
-    const int32_t value = (int32_t)(row->whole + (uint32_t)((int32_t)high >> transform->over));
+    const int32_t value = (int32_t)(plain ? high : row->whole + (uint32_t)((int32_t)high >> transform->over));
     READ_AGAIN();
     return value;
+}
+
+/* In perspective, and no bit is shifted out of upper sums: nearly all draws. */
+static inline bool is_plain(const el_transform *transform)
+{
+    return transform->over == 0 && !el_transform_is_orthographic(transform);
 }
 #else
 void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
@@ -82,14 +89,22 @@ void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3]
     }
 }
 
-static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p)
+/* `plain`: as above, for which this has no use. */
+static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p, bool plain)
 {
+    (void)plain;
     /* Three products below 2^46 and an offset below 2^62. */
     const el_row *const row = &transform->rows[i];
     const uint64_t sum = (uint64_t)(row->offset + (int64_t)row->elements[0] * p.x + (int64_t)row->elements[1] * p.y +
                                     (int64_t)row->elements[2] * p.z);
     /* The lower word of sum >> shift, 1 <= shift <= 31. */
     return (int32_t)((uint32_t)(sum >> 32) << (32 - transform->shift) | (uint32_t)sum >> transform->shift);
+}
+
+static inline bool is_plain(const el_transform *transform)
+{
+    (void)transform;
+    return false;
 }
 #endif
 
@@ -115,7 +130,7 @@ el_clip_vertex el_transform_position(const el_transform *transform, const int16_
     const el_place place = place_of(position);
     int32_t coordinates[3];
     for (unsigned i = 0; i < 3; i++) {
-        coordinates[i] = form_value(transform, i, place);
+        coordinates[i] = form_value(transform, i, place, is_plain(transform));
     }
     const int32_t d = coordinates[2];
     return (el_clip_vertex){.x = coordinates[0],
@@ -250,54 +265,67 @@ static EL_SELDOM void project_again(const el_transform *transform, const int16_t
     el_project(transform, &vertex, screen);
 }
 
-/* One comparison for each coordinate, and what is outside by one is not asked for the others. */
-static EL_SPECIALISED void transform_in_view(const el_transform *transform, const int16_t position[3],
-                                             el_screen_vertex *screen)
+/* One comparison for each coordinate, and what is outside by one is not asked for the others. False where it is to be
+ * projected again. */
+static EL_SPECIALISED bool transform_in_view(const el_transform *transform, const int16_t position[3],
+                                             el_screen_vertex *screen, bool plain)
 {
     const el_place place = place_of(position);
-    const int16_t *volatile kept = position; /* not in a register, which are scarce, for what comes seldom */
-    const int32_t d = form_value(transform, 2, place);
+    const int32_t d = form_value(transform, 2, place, plain);
     const int32_t near = transform->near;
     if ((uint32_t)d - (uint32_t)near > (uint32_t)transform->far - (uint32_t)near) {
         screen->code = (uint8_t)(EL_CODE_LATER | (d < near ? EL_CODE_NEAR : EL_CODE_FAR));
-        return;
+        return true;
     }
-    const uint32_t w = (uint32_t)(el_transform_is_orthographic(transform) ? transform->constant_w : d); /* 1 at least */
-    const int32_t x = form_value(transform, 0, place);
+    const bool orthographic = !plain && el_transform_is_orthographic(transform);
+    const uint32_t w = (uint32_t)(orthographic ? transform->constant_w : d); /* 1 at least */
+    const int32_t x = form_value(transform, 0, place, plain);
     const uint32_t from_left = w + (uint32_t)x;
     if (from_left > 2U * w) {
         screen->code = (uint8_t)(EL_CODE_LATER | (x < 0 ? EL_CODE_LEFT : EL_CODE_RIGHT));
-        return;
+        return true;
     }
-    const int32_t y = form_value(transform, 1, place);
+    const int32_t y = form_value(transform, 1, place, plain);
     const uint32_t from_above = w - (uint32_t)y;
     if (from_above > 2U * w) {
         screen->code = (uint8_t)(EL_CODE_LATER | (y < 0 ? EL_CODE_BELOW : EL_CODE_ABOVE));
-        return;
+        return true;
     }
 
     screen->code = 0;
     uint32_t normalised = w;
     const unsigned shift = el_normalise(&normalised); /* w < 2^31: 1 at least */
     const uint32_t reciprocal = el_reciprocal_near(normalised);
-    if (!snap_fast(from_left << (shift - 1U), transform->size[0], reciprocal, &screen->x) ||
-        !snap_fast(from_above << (shift - 1U), transform->size[1], reciprocal, &screen->y) ||
-        !keep_reciprocal_fast(screen, shift, reciprocal) || !depth_fast(transform, shift, reciprocal, &screen->z)) {
-        project_again(transform, kept, screen);
-    }
+    return snap_fast(from_left << (shift - 1U), transform->size[0], reciprocal, &screen->x) &&
+           snap_fast(from_above << (shift - 1U), transform->size[1], reciprocal, &screen->y) &&
+           keep_reciprocal_fast(screen, shift, reciprocal) && depth_fast(transform, shift, reciprocal, &screen->z);
 }
 
-void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+static EL_SPECIALISED void transform_vertices(const el_transform *transform, const int16_t (*positions)[3],
+                                              uint32_t count, el_screen_vertex *screen, bool plain)
 {
-    transform_in_view(transform, position, screen);
+    const el_screen_vertex *const end = screen + count;
+    for (; screen != end; screen++) {
+        if (!transform_in_view(transform, *positions, screen, plain)) {
+            project_again(transform, *positions, screen);
+        }
+        positions++;
+    }
 }
 
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
                            el_screen_vertex *screen)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        transform_in_view(transform, positions[i], &screen[i]);
+    if (is_plain(transform)) {
+        transform_vertices(transform, positions, count, screen, true);
+    } else {
+        transform_vertices(transform, positions, count, screen, false);
     }
+}
+
+void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
+{
+    el_transform_vertices(transform, (const int16_t(*)[3])position, 1, screen);
 }
 #endif
 

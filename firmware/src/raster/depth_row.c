@@ -19,7 +19,6 @@ void el_depth_row_begin(el_depth_row *row, uint16_t *depth, uint32_t count, uint
     row->never_far = (uint32_t)(z >> 32) < EL_DEPTH_EMPTY && (uint32_t)(last >> 32) < EL_DEPTH_EMPTY;
 }
 
-#if !EL_SMALL_CODE
 /* How many of the next pixels are empty, in whole blocks. Where they begin between two words, the first is left to be
  * compared. */
 static uint32_t empty_ahead(const el_depth_row *row)
@@ -52,7 +51,6 @@ static void write_all(el_depth_row *row, const uint16_t *end)
     row->z = z;
     row->next = depth;
 }
-#endif
 
 /* The next pixels up to `end`, as far as they are nearer. Returns whether all are. */
 static bool write_nearer(el_depth_row *row, const uint16_t *end)
@@ -72,9 +70,6 @@ static bool write_nearer(el_depth_row *row, const uint16_t *end)
 uint32_t el_depth_row_take(el_depth_row *row)
 {
     const uint16_t *const begin = row->next;
-#if EL_SMALL_CODE
-    (void)write_nearer(row, row->end);
-#else
     /* To a word's beginning; then what is empty has nothing to be compared with, and what is not is compared. */
     const uint16_t *end = begin != row->end && ((uintptr_t)begin & 2U) != 0 ? begin + 1 : begin;
     while (write_nearer(row, end) && end != row->end) {
@@ -84,7 +79,6 @@ uint32_t el_depth_row_take(el_depth_row *row)
         }
         end = row->end - row->next > COMPARED ? row->next + COMPARED : row->end;
     }
-#endif
     return (uint32_t)(row->next - begin);
 }
 

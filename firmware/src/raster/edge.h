@@ -105,6 +105,12 @@ static inline void el_edge_widen(el_edge *edge, el_edge_q20 narrow)
     edge->step_q32 = el_q20_to_q32(narrow.step);
 }
 
+/* Of an edge that was widened. */
+static inline el_edge_q20 el_edge_narrowed(const el_edge *edge)
+{
+    return (el_edge_q20){.x = (int32_t)(edge->x_q32 >> 12), .step = (int32_t)(edge->step_q32 >> 12)};
+}
+
 static inline void el_edge_make_short(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
     el_edge_widen(edge, el_edge_make_q20(x0, y0, x1, y1, row));

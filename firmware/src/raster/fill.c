@@ -1,11 +1,13 @@
 /* The fills in one colour and in the vertices' colours, and those that count. Each shading, with and without depth, is the
  * same code with its choices made at compile time, so that none pays for another; in small code one loop asks, in half the
- * memory. */
+ * memory (fill_small.c). */
 #include "raster/fill.h"
 
 #include "base/dither.h"
 #include "base/fixed.h"
+#include "raster/small_triangle.h"
 
+#if !EL_SMALL_CODE
 static EL_SPECIALISED uint32_t coloured(const el_values *v, uint32_t threshold_q16, unsigned kind)
 {
     if ((kind & EL_FILL_DITHER) != 0) {
@@ -82,15 +84,6 @@ static __attribute__((noinline)) int32_t fill_count(el_triangle *triangle, const
     return rows;
 }
 
-#if EL_SMALL_CODE
-static int32_t fill_rows(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
-{
-    if (EL_WITH_TEXTURE && (kind & EL_FILL_TEXTURE) != 0) {
-        return el_fill_textured(triangle, target, stats, kind);
-    }
-    return ((kind & EL_FILL_COUNT) != 0 ? fill_count : fill_plain)(triangle, target, stats, kind);
-}
-#else
 /* A loop of its own for each kind there is, in a function of its own, so that none has the registers of another; kinds
  * that options.h makes equal have one. The most frequent first. */
 #define FILLS(DO)                                                                                                      \
@@ -122,12 +115,19 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     }
     return fill_count(triangle, target, stats, asked);
 }
-#endif
 
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
+#if EL_WITH_SMALL_PLANES
+    if (triangle->edges_are_short && triangle->kind == EL_FILL_DEPTH && triangle->x_begin >= 0 &&
+        triangle->x_end <= target->width) {
+        el_small_triangle_go_on(triangle, target, stats);
+        return;
+    }
+#endif
     int32_t rows;
     do {
         rows = fill_rows(triangle, target, stats, triangle->kind);
     } while (rows == EL_SPAN_ROWS && triangle->y < target->y_end && !el_triangle_is_done(triangle));
 }
+#endif

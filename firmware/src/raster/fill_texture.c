@@ -1,48 +1,12 @@
 /* The fills with a texture: alone, or times light or vertex colours. Each is the same code with its choices made at compile
  * time, as in fill.c. */
-#include "base/dither.h"
 #include "base/fixed.h"
 #include "raster/depth_row.h"
 #include "raster/fill.h"
+#include "raster/texel.h"
 #include "raster/texture_walk.h"
 
-/* Where a texture's texels are: masks for the whole parts of u and v, which repeat it, the latter already times the
- * width. A copy, because a compiler must assume that a pixel written may lie in the texture's own description. */
-typedef struct texel_source {
-    const uint16_t *texels;
-    uint32_t u_mask, v_mask;
-    unsigned v_down; /* from Q16 to whole texels times the width */
-} texel_source;
-
-static EL_SPECIALISED texel_source source_of(const el_texture *texture)
-{
-    return (texel_source){
-        .texels = texture->texels,
-        .u_mask = (1U << texture->width_log2) - 1U,
-        .v_mask = ((1U << texture->height_log2) - 1U) << texture->width_log2,
-        .v_down = 16U - texture->width_log2,
-    };
-}
-
-static EL_SPECIALISED uint32_t texel_at(const texel_source *source, uint32_t u_q16, uint32_t v_q16)
-{
-    return source->texels[((v_q16 >> source->v_down) & source->v_mask) | ((u_q16 >> 16) & source->u_mask)];
-}
-
-/* A channel of a texel times light / 255, where 255 leaves it as it is. */
-static EL_SPECIALISED uint32_t lit(uint32_t channel, uint32_t light, uint32_t threshold_q16, unsigned kind)
-{
-    return (kind & EL_FILL_DITHER) != 0 ? el_dither(el_fraction_q16(light), channel, threshold_q16)
-                                        : (channel * ((light >> 24) + 1U)) >> 8;
-}
-
-static EL_SPECIALISED uint16_t modulate(uint32_t texel, const el_values *v, uint32_t threshold_q16, unsigned kind)
-{
-    return (uint16_t)(lit(texel >> 11, v->red, threshold_q16, kind) << 11 |
-                      lit((texel >> 5) & 63U, v->green, threshold_q16, kind) << 5 |
-                      lit(texel & 31U, v->blue, threshold_q16, kind));
-}
-
+#if !EL_SMALL_CODE
 /* Both coordinates in one number of 64 bits, which one addition steps. Its upper word has u at the top, so that what runs
  * over is what repeats, u's fraction of 16 bits, and v in what is left below, whose fraction is in the lower word:
  *
@@ -75,12 +39,11 @@ static packing packing_of(const el_texture *texture)
 
 /* What the pixels of a triangle are drawn with. */
 typedef struct brush {
-    texel_source source;
+    el_texel_source source;
     packing packing;
     el_texture_walk walk;
     el_slopes slopes;
     uint32_t y;
-    unsigned kind;
 } brush;
 
 /* Draws `count` pixels of the walk's piece, after those that are `skipped`; the first of them is at column x. */
@@ -88,12 +51,19 @@ typedef void draw_pixels(const brush *b, uint16_t *colour, uint32_t x, uint32_t 
 
 static bool can_pack(const brush *b, unsigned kind)
 {
-    return !EL_SMALL_CODE && (kind & EL_FILL_COLOURS) == 0 &&
+    return (kind & EL_FILL_COLOURS) == 0 &&
            (uint32_t)b->walk.v.step_q16 + b->packing.v_step_most < 2U * b->packing.v_step_most;
 }
 
+/* A call per piece costs a tenth of the piece where registers are many; on Armv6-M less than what must be moved away. */
+#if defined(__ARM_ARCH_6M__)
+#define EACH_PIECE __attribute__((noinline))
+#else
+#define EACH_PIECE EL_SPECIALISED
+#endif
+
 /* Of nothing but texels, where they can be packed. */
-static __attribute__((noinline)) void draw_packed(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
+static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
 {
     const packing p = b->packing;
     const el_texture_axis *const u = &b->walk.u;
@@ -121,7 +91,7 @@ static __attribute__((noinline)) void draw_packed(const brush *b, uint16_t *colo
 static EL_SPECIALISED void draw_any(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count,
                                     unsigned kind)
 {
-    const texel_source source = b->source;
+    const el_texel_source source = b->source;
     const el_values step = b->slopes.per_column;
     const uint32_t u_step_q16 = (uint32_t)b->walk.u.step_q16;
     const uint32_t v_step_q16 = (uint32_t)b->walk.v.step_q16;
@@ -130,8 +100,8 @@ static EL_SPECIALISED void draw_any(const brush *b, uint16_t *colour, uint32_t x
     uint32_t v_q16 = (uint32_t)b->walk.v.q16 + v_step_q16 * skipped;
     el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
     for (const uint32_t x_end = x + count; x < x_end; x++) {
-        const uint32_t texel = texel_at(&source, u_q16, v_q16);
-        *colour++ = (kind & EL_FILL_COLOURS) != 0 ? modulate(texel, &light, el_dither_threshold_q16(x, y), kind)
+        const uint32_t texel = el_texel_at(&source, u_q16, v_q16);
+        *colour++ = (kind & EL_FILL_COLOURS) != 0 ? el_modulate(texel, &light, el_dither_threshold_q16(x, y), kind)
                                                   : (uint16_t)texel;
         el_values_add(&light, &step, kind);
         u_q16 += u_step_q16;
@@ -154,7 +124,7 @@ static EL_SPECIALISED void draw_last(brush *b, uint16_t *row, uint32_t x, unsign
 {
     el_texture_walk_last(&b->walk);
     if ((kind & EL_FILL_COLOURS) == 0) {
-        row[x] = (uint16_t)texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
+        row[x] = (uint16_t)el_texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
     } else {
         draw(b, row + x, x, 0, 1);
     }
@@ -201,10 +171,6 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
 static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
                                     unsigned kind, draw_pixels *draw)
 {
-    if (EL_SMALL_CODE) {
-        draw_seen(b, planes, row, x, x_end, x_end - x, NULL, kind, draw);
-        return;
-    }
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
@@ -224,7 +190,7 @@ static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, u
     el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                        b->slopes.per_column.z);
     const uint32_t seen = el_depth_row_take(&depth);
-    if (!EL_SMALL_CODE && seen == x_end - x) {
+    if (seen == x_end - x) {
         draw_all(b, planes, row, x, x_end, kind, draw);
     } else {
         draw_seen(b, planes, row, x, x_end, seen, &depth, kind, draw);
@@ -235,12 +201,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
                                    draw_pixels *draw)
 {
     brush b;
-    b.source = source_of(triangle->surface.texture);
-    if (!EL_SMALL_CODE) {
-        b.packing = packing_of(triangle->surface.texture);
-    }
+    b.source = el_texel_source_of(triangle->surface.texture);
+    b.packing = packing_of(triangle->surface.texture);
     b.y = (uint32_t)triangle->y;
-    b.kind = kind;
     el_texture_walk_start(&b.walk, triangle);
     const el_perspective *const planes = &triangle->perspective;
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
@@ -267,17 +230,6 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
     return rows;
 }
 
-#if EL_SMALL_CODE
-static void draw_kind(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count)
-{
-    draw_any(b, colour, x, skipped, count, b->kind);
-}
-
-int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
-{
-    return fill(triangle, target, stats, kind, draw_kind);
-}
-#else
 /* A function of its own for the pixels of each kind, and for each kind with and without depth. */
 #define DRAW(name, kind)                                                                                               \
     static __attribute__((noinline)) void draw_##name(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped,  \

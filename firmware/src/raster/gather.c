@@ -5,7 +5,7 @@
 
 #include "base/fixed.h"
 #include "base/rgb565.h"
-#include "raster/list.h"
+#include "raster/plain.h"
 
 /* ambient + diffuse * max(0, normal . light), 0..255 in 8.8. */
 static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool turned)
@@ -22,11 +22,6 @@ static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool
         value += (uint32_t)light->diffuse * ((uint32_t)dot >> 6) / 127U;
     }
     return value > 0xFF00U ? 0xFF00U : value;
-}
-
-static const uint8_t *base_colour(const el_draw_state *draw, uint16_t vertex)
-{
-    return draw->mesh->colours != NULL ? draw->mesh->colours[vertex] : draw->material->colour;
 }
 
 /* colour * light / 255, 8.8. Without a division: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
@@ -53,7 +48,7 @@ static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t v
 
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3])
 {
-    shade(draw, base_colour(draw, vertex), vertex, turned, rgb_q8);
+    shade(draw, el_base_colour(draw, vertex), vertex, turned, rgb_q8);
 }
 
 /* Whether a two-sided triangle shows its back to the light. */
@@ -68,8 +63,7 @@ static bool is_turned(const el_draw_state *draw, const el_corner corners[3])
 }
 
 /* One colour for the triangle: its own, or that of its first vertex, or its vertices' mean; lit alike. */
-static __attribute__((noinline)) uint16_t flat_colour(const el_draw_state *draw, uint16_t index,
-                                                      const el_corner corners[3])
+static EL_APART uint16_t flat_colour(const el_draw_state *draw, uint16_t index, const el_corner corners[3])
 {
     const unsigned count = (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? 3 : 1;
     const bool turned = is_turned(draw, corners);
@@ -79,7 +73,7 @@ static __attribute__((noinline)) uint16_t flat_colour(const el_draw_state *draw,
         uint16_t rgb_q8[3];
         shade(draw,
               draw->mesh->triangle_colours != NULL ? draw->mesh->triangle_colours[index]
-                                                   : base_colour(draw, vertices[i]),
+                                                   : el_base_colour(draw, vertices[i]),
               vertices[i], turned, rgb_q8);
         for (unsigned channel = 0; channel < 3; channel++) {
             sums[channel] += rgb_q8[channel];
@@ -90,20 +84,6 @@ static __attribute__((noinline)) uint16_t flat_colour(const el_draw_state *draw,
         rgb[channel] = (uint8_t)((sums[channel] / count + 128U) >> 8);
     }
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
-}
-
-/* One colour for the triangle where it is not computed: its own, or that of its first vertex. NULL where it is lit, or its
- * vertices' mean. */
-static inline const uint8_t *plain_colour(const el_draw_state *draw, uint16_t index)
-{
-    const el_mesh *const mesh = draw->mesh;
-    if (EL_SMALL_CODE || el_is_lit(draw->material)) {
-        return NULL;
-    }
-    if (mesh->triangle_colours != NULL) {
-        return mesh->triangle_colours[index];
-    }
-    return (draw->material->flags & EL_MATERIAL_FLAT_MEAN) != 0 ? NULL : base_colour(draw, mesh->triangles[index][0]);
 }
 
 /* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
@@ -117,8 +97,7 @@ static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const u
 }
 
 /* Where the corners of a thin record are, as its vertices would have been listed. */
-static __attribute__((noinline)) void find_points(const el_draw_state *draw, const el_record *record,
-                                                  el_corner corners[3])
+static EL_APART void find_points(const el_draw_state *draw, const el_record *record, el_corner corners[3])
 {
     uint16_t w[3];
     uint8_t shifts[3];
@@ -144,7 +123,7 @@ static inline void take_point(el_corner *corner, const el_point *point)
 }
 
 /* 1/w of the corners of a textured record. */
-static __attribute__((noinline)) void gather_reciprocals(const el_record *record, el_corner corners[3])
+static EL_APART void gather_reciprocals(const el_record *record, el_corner corners[3])
 {
     const el_record_perspective *const perspective = (const el_record_perspective *)(const void *)record;
     uint8_t shifts[3];
@@ -157,17 +136,23 @@ static __attribute__((noinline)) void gather_reciprocals(const el_record *record
 /* Where the corners are; of textured ones 1/w. */
 static inline void gather_points(const el_record *record, el_record_kind kind, el_corner corners[3])
 {
-    take_point(&corners[0], &record->at.points[0]);
-    take_point(&corners[1], &record->at.points[1]);
-    take_point(&corners[2], &record->at.points[2]);
+    if (EL_SMALL_CODE) {
+        for (unsigned i = 0; i < 3; i++) {
+            take_point(&corners[i], &record->at.points[i]);
+        }
+    } else {
+        take_point(&corners[0], &record->at.points[0]);
+        take_point(&corners[1], &record->at.points[1]);
+        take_point(&corners[2], &record->at.points[2]);
+    }
     if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
         gather_reciprocals(record, corners);
     }
 }
 
 /* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
-static __attribute__((noinline)) void gather_attributes(const el_draw_state *draw, const el_record *record,
-                                                        el_record_kind kind, el_corner corners[3])
+static EL_APART void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
+                                       el_corner corners[3])
 {
     const el_shading shading = el_shading_of(draw);
     const bool turned = is_turned(draw, corners);
@@ -203,7 +188,7 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     surface->dither = (material->flags & EL_MATERIAL_DITHER) != 0;
     surface->texture = material->texture;
 
-    const uint8_t *const plain = shading == EL_SHADE_FLAT ? plain_colour(draw, record->index) : NULL;
+    const uint8_t *const plain = shading == EL_SHADE_FLAT ? el_plain_colour(draw, record->index) : NULL;
     if (plain != NULL) {
         surface->colour = el_rgb565(plain[0], plain[1], plain[2]);
     }
@@ -221,24 +206,6 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     }
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
 }
-
-#if EL_WITH_SMALL_PLANES
-const el_point *el_list_plain_points(const el_list *list, const el_record *record, uint16_t *colour)
-{
-    const el_run *const run = el_list_run(list, record);
-    const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
-    if (el_shading_of(draw) != EL_SHADE_FLAT || (draw->material->flags & EL_MATERIAL_NO_DEPTH) != 0 ||
-        run->kind == EL_RECORD_THIN) {
-        return NULL;
-    }
-    const uint8_t *const plain = plain_colour(draw, record->index);
-    if (plain == NULL) {
-        return NULL;
-    }
-    *colour = el_rgb565(plain[0], plain[1], plain[2]);
-    return record->at.points;
-}
-#endif
 
 unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
 {

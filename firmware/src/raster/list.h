@@ -274,10 +274,6 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
 /* The same for its depth alone: corners without attributes, a flat surface in no colour. */
 unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
 
-/* The points of a record whose triangle is flat, in a colour that is not computed, with depth: they and *colour are all of it.
- * NULL for others. */
-const el_point *el_list_plain_points(const el_list *list, const el_record *record, uint16_t *colour);
-
 #ifdef __cplusplus
 }
 #endif

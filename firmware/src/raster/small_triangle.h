@@ -18,6 +18,9 @@ extern "C" {
 bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_target *target, el_stats *stats,
                             el_triangle *rest);
 
+/* el_triangle_draw for such a triangle: flat, with depth, its edges short, its columns on the screen. */
+void el_small_triangle_go_on(el_triangle *triangle, const el_target *target, el_stats *stats);
+
 #endif
 
 #ifdef __cplusplus

@@ -67,7 +67,7 @@ int32_t el_spans_next(el_triangle *triangle, const el_target *target, el_stats *
         pixels =
             walk_bent(triangle, &triangle->right, spans->x_end, rows, upper) - walk(&triangle->left, spans->x, rows);
     }
-    if (triangle->x_begin < 0 || triangle->x_end > target->width) {
+    if (!EL_TRIANGLE_HAS_COLUMNS || triangle->x_begin < 0 || triangle->x_end > target->width) {
         pixels = clamp(spans, rows, target->width);
     }
     el_count(&stats->rows, (uint32_t)rows);

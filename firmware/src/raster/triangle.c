@@ -92,7 +92,7 @@ static void make_perspective(el_perspective *perspective, const el_corner *const
 }
 
 /* What is linear on the screen, of any triangle: the textured part, and the others unless they are there already. */
-static __attribute__((noinline)) void make_planes(el_triangle *triangle, const outline *sorted, bool texture_alone)
+static EL_APART void make_planes(el_triangle *triangle, const outline *sorted, bool texture_alone)
 {
     const el_corner *const corners[3] = {sorted->top, sorted->middle, sorted->bottom};
     const int32_t x[3] = {corners[0]->x, corners[1]->x, corners[2]->x};
@@ -140,6 +140,7 @@ static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const 
     triangle->y = (int16_t)y_begin;
     triangle->y_end = (int16_t)y_end;
     triangle->short_is_left = short_is_left;
+    triangle->edges_are_short = edges_are_short;
     /* The middle corner can only be beyond the others on its own side. */
     int32_t least = el_min_i32(o->top->x, o->bottom->x);
     int32_t most = el_max_i32(o->top->x, o->bottom->x);
@@ -152,8 +153,10 @@ static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const 
     } else {
         most = el_max_i32(most, o->middle->x);
     }
-    triangle->x_begin = (int16_t)el_first_centre(least);
-    triangle->x_end = (int16_t)el_first_centre(most);
+    if (EL_TRIANGLE_HAS_COLUMNS) {
+        triangle->x_begin = (int16_t)el_first_centre(least);
+        triangle->x_end = (int16_t)el_first_centre(most);
+    }
     make_edge(straight, o->top, o->bottom, y_begin, edges_are_short);
     int32_t y_bend = INT16_MAX;
     int32_t y_lower = y_begin;
@@ -170,8 +173,7 @@ static EL_SPECIALISED void begin(el_triangle *triangle, const outline *o, const 
 }
 
 /* The way of larger triangles, apart, so that it takes no registers from that of most. */
-static __attribute__((noinline)) bool set_up_large(el_triangle *triangle, const outline *o, const el_surface *surface,
-                                                   int32_t y_begin)
+static EL_APART bool set_up_large(el_triangle *triangle, const outline *o, const el_surface *surface, int32_t y_begin)
 {
     const int32_t x[3] = {o->top->x, o->middle->x, o->bottom->x};
     const int32_t y[3] = {o->top->y, o->middle->y, o->bottom->y};

@@ -44,14 +44,18 @@ typedef struct el_perspective {
     uint8_t v_shift;
 } el_perspective;
 
+/* 1 where it is known which columns a triangle reaches. */
+#define EL_TRIANGLE_HAS_COLUMNS (!EL_SMALL_CODE || EL_WITH_HIDDEN)
+
 typedef struct el_triangle {
     el_surface surface;
     int16_t y;        /* next row */
     int16_t y_middle; /* first row of the lower part; INT16_MAX when there is none, or it has begun */
     int16_t y_end;
-    int16_t x_begin, x_end; /* no row reaches beyond these columns */
+    int16_t x_begin, x_end; /* no row reaches beyond these columns, if EL_TRIANGLE_HAS_COLUMNS */
     uint8_t kind;           /* what its pixels need (fill.h) */
     bool short_is_left;     /* the side that bends at y_middle */
+    bool edges_are_short;   /* they are el_edge_q20, widened */
     el_edge left, right;    /* of the current part */
     el_edge lower;          /* the lower part's other edge */
     /* What a shading does not use, at the end, need not be in memory. */
