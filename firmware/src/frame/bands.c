@@ -200,13 +200,15 @@ static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const
         uint16_t state_name = 0;
         uint16_t carried_name = 0;
         el_triangle *rest = NULL;
-        if (EL_WITH_CARRY && painter->goes_on && el_first_centre(y_last) > target->y_end) {
-            state_name = take_state(&painter->carrying, list, EL_SHADE_FLAT);
+        if (painter->goes_on && el_first_centre(y_last) > target->y_end) {
             carried_name = name;
+            state_name = EL_WITH_CARRY ? take_state(&painter->carrying, list, EL_SHADE_FLAT) : 0;
             if (state_name != 0) {
                 carried_state *const state = el_list_at(list, state_name);
                 state->order = name;
+#if EL_WITH_HIDDEN
                 state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+#endif
                 rest = &state->triangle;
                 carried_name = state_name;
             }
