@@ -237,7 +237,6 @@ static EL_APART_IF_SMALL uint16_t draw_named(el_painter *painter, const el_rende
     el_triangle *const triangle = &state->triangle;
     const bool reaches_on = painter->goes_on && triangle->y_end > target->y_end;
 #if EL_WITH_HIDDEN
-    const uint16_t order = state->order;
     if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
         is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
         /* It is set up anew where it comes into sight, if it does. */

@@ -19,7 +19,7 @@ BENCH_INLINE void step_q16(const el_triangle *triangle, const span_target *row, 
                            uint32_t rounding)
 {
     const el_plane *const plane = &triangle->z;
-    uint32_t z_q16 = (uint32_t)(plane_at(triangle, &triangle->z, x) >> 16) + 0x8000U;
+    uint32_t z_q16 = (uint32_t)(plane_at(&triangle->z, x) >> 16) + 0x8000U;
     const uint32_t step_q16 = (uint32_t)((plane->dx + rounding) >> 16);
     for (; x < x_end; x++) {
         test_and_write(row, x, z_q16 >> 16);
@@ -42,7 +42,7 @@ BENCH_INLINE void floored_step(const el_triangle *triangle, const span_target *r
 BENCH_INLINE void wide_step(const el_triangle *triangle, const span_target *row, int32_t x, int32_t x_end)
 {
     const el_plane *const plane = &triangle->z;
-    uint64_t z_q32 = plane_at(triangle, &triangle->z, x) + (1ULL << 31) + (1U << 13);
+    uint64_t z_q32 = plane_at(&triangle->z, x) + (1ULL << 31) + (1U << 13);
     for (; x < x_end; x++) {
         test_and_write(row, x, (uint32_t)(z_q32 >> 32));
         z_q32 += plane->dx;
@@ -55,7 +55,7 @@ BENCH_INLINE void evaluated(const el_triangle *triangle, const span_target *row,
         /* Hidden from the compiler, which would make a sum of the product. */
         int32_t column = x;
         __asm__("" : "+r"(column));
-        test_and_write(row, x, (uint32_t)((plane_at(triangle, &triangle->z, column) + (1ULL << 31)) >> 32));
+        test_and_write(row, x, (uint32_t)((plane_at(&triangle->z, column) + (1ULL << 31)) >> 32));
     }
 }
 

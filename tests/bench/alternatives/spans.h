@@ -19,7 +19,7 @@ typedef void span_function(const el_triangle *triangle, const span_target *row, 
 enum { BATCH = 64 };
 
 /* A plane's value at pixel x of the triangle's current row. */
-BENCH_INLINE uint64_t plane_at(const el_triangle *triangle, const el_plane *plane, int32_t x)
+BENCH_INLINE uint64_t plane_at(const el_plane *plane, int32_t x)
 {
     return plane->value + plane->dx * (uint64_t)(int64_t)x;
 }

@@ -60,9 +60,9 @@ typedef struct coordinates {
 static coordinates divided(const el_triangle *triangle, int32_t x)
 {
     const uint64_t half = 1ULL << 31;
-    const uint32_t w = (uint32_t)((plane_at(triangle, &triangle->perspective.w, x) + half) >> 32);
-    const int32_t u = (int32_t)(uint32_t)((plane_at(triangle, &triangle->perspective.u, x) + half) >> 32);
-    const int32_t v = (int32_t)(uint32_t)((plane_at(triangle, &triangle->perspective.v, x) + half) >> 32);
+    const uint32_t w = (uint32_t)((plane_at(&triangle->perspective.w, x) + half) >> 32);
+    const int32_t u = (int32_t)(uint32_t)((plane_at(&triangle->perspective.u, x) + half) >> 32);
+    const int32_t v = (int32_t)(uint32_t)((plane_at(&triangle->perspective.v, x) + half) >> 32);
     const el_divisor by = el_divisor_make(w);
     return (coordinates){
         triangle->perspective.u_base_q16 + el_divide_floor_i64(u * ((int64_t)1 << triangle->perspective.u_shift), &by),

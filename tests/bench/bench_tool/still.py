@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .frames import Verdicts
-from .machines import CORES, BenchError, Machines
+from .machines import MAIN_CORES, BenchError, Machines
 
 WIRE_BYTES_PER_S = 62.5e6 / 8
 """Of the Pico's SPI."""
@@ -22,10 +22,10 @@ class Still:
 
 
 def measure(machines: Machines, verdicts: Verdicts) -> list[Still]:
-    """All scenes, on all cores; what goes over the bus must be the same on each, and on this computer."""
+    """All scenes, on the main cores; what goes over the bus must be the same on each, and on this computer."""
     native = [line for line in machines.native("still") if line.words[0] != "empty"]
     counts: dict[str, list[int]] = {}
-    for core in CORES:
+    for core in MAIN_CORES:
         found = machines.target(core, "still")
         if len(found) != len(native):
             raise BenchError(f"{core} drew {len(found)} frames, this computer {len(native)}")
@@ -37,7 +37,7 @@ def measure(machines: Machines, verdicts: Verdicts) -> list[Still]:
             line.words[0],
             line.words[1].replace(",", ", "),
             int(line.values["bytes"]),
-            {core: counts[core][index] for core in CORES},
+            {core: counts[core][index] for core in MAIN_CORES},
         )
         for index, line in enumerate(native)
     ]
@@ -50,7 +50,7 @@ def table(frames: list[Still]) -> str:
         "|---|---|---|---|---|---|",
     ]
     for frame in frames:
-        counts = " | ".join(f"{frame.instructions[core] / 1e6:.3f} M" for core in CORES)
+        counts = " | ".join(f"{frame.instructions[core] / 1e6:.3f} M" for core in MAIN_CORES)
         ms = frame.bus_bytes / WIRE_BYTES_PER_S * 1e3
         lines.append(f"| {frame.scene} | {frame.way} | {counts} | {frame.bus_bytes:,} | {ms:.1f} |")
     return "\n".join(lines)
