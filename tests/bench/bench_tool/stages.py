@@ -54,6 +54,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/list.c", "*", "bin"),
     ("firmware/src/raster/hidden.c", "*", "bin"),
     ("firmware/src/raster/gather.c", "*", "set-up"),
+    ("firmware/src/raster/small_triangle.c", "draw_rows", "pixels"),
     ("firmware/src/raster/small_triangle.c", "*", "set-up"),
     ("firmware/src/raster/triangle.c", "*", "set-up"),
     ("firmware/src/raster/plane.c", "*", "set-up"),
