@@ -72,7 +72,7 @@ FAULTS = [
     Fault(
         "DMA over a buffer still being drawn",
         {
-            BANDS: [("    renderer->current ^= 1U;\n", "")],
+            BANDS: [("            painter->current ^= 1U;\n", "")],
             DISPLAY: [(TRIGGER, TRIGGER + "    done(argument);\n"), slow_wire(16)],
         },
         "dma-overwrite",

@@ -56,7 +56,7 @@ FAULTS = (
         "a band is given back when its DMA begins",
         {
             DISPLAY: [(GIVEN, "    give_dma_a_piece();\n    done(argument);\n    SPI1_CR2")],
-            BANDS: [("    renderer->current ^= 1U;\n", "")],
+            BANDS: [("            painter->current ^= 1U;\n", "")],
         },
         "is written, which DMA2 stream 3 has yet to read",
     ),
