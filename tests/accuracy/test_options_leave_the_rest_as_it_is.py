@@ -42,8 +42,9 @@ def _compile(folder: Path, *flags: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
-def _draw(folder: Path, *flags: str) -> Drawn:
-    done = _compile(folder, *flags)
+def _draw(folder: Path, *flags: str, hidden: int = 0) -> Drawn:
+    """Without EL_WITH_HIDDEN, which leaves the pixels as they are and counts fewer."""
+    done = _compile(folder, f"-DEL_WITH_HIDDEN={hidden}", *flags)
     assert done.returncode == 0, done.stderr
     said = subprocess.run([folder / "program"], capture_output=True, text=True, check=True).stdout
     rows = [line.split() for line in said.splitlines()]
@@ -81,6 +82,11 @@ def test_a_mode_is_left_out(everything: Drawn, tmp_path: Path, left_out: tuple[s
 )
 def test_small_code_draws_the_same(everything: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
     assert _draw(tmp_path, *flags) == everything
+
+
+def test_what_is_hidden_makes_no_pixel(everything: Drawn, tmp_path: Path) -> None:
+    drawn = _draw(tmp_path, hidden=1)
+    assert {name: row[:2] for name, row in drawn.items()} == {name: row[:2] for name, row in everything.items()}
 
 
 @pytest.mark.parametrize("option", ["STATS", "CARRY", "THIN", "REUSE"])
