@@ -241,7 +241,7 @@ def coloured_domain(dither: bool) -> Any:
 
 def modulate(dither: bool) -> Subject:
     modular = ["el_fraction_q16", "el_dither"] if dither else []
-    return Subject(TEXTURE, "modulate", modulate_domain(dither), modular=modular, packs=True)
+    return Subject(TEXTURE, "el_modulate", modulate_domain(dither), modular=modular, packs=True)
 
 
 def coloured(dither: bool) -> Subject:
@@ -461,7 +461,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("side", SPANS, "if (rows < upper)", "if (rows <= upper)"),
         ("side", SPANS, "x + upper, rows - upper)", "x, rows - upper)"),
         ("side", "raster/edge.h", "edge->x_q32 += edge->step_q32", "edge->x_q32 += edge->step_q32 + 1"),
-        ("modulate", TEXTURE, "(light >> 24) + 1U", "(light >> 24) + 10U"),
+        ("modulate", "raster/texel.h", "(light >> 24) + 1U", "(light >> 24) + 10U"),
         ("coloured", FILL, "v->red >> 27 << 6", "v->red >> 27 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
         ("texel", TEXTURE, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
