@@ -253,11 +253,11 @@ def texel_domain(machine: Machine) -> list[Any]:
     width, height = (machine.path.choose(machine.path.atom(name, 0, 10)) for name in ("width_log2", "height_log2"))
     texture = machine.struct("el_texture", width_log2=width, height_log2=height)
     texture.content["texels"].content = Memory(machine.type_named("uint16_t"), 1 << (width + height))
-    source = machine.call("source_of", Pointer([texture]))
+    source = machine.call("el_texel_source_of", Pointer([texture]))
     return [Pointer([source]), machine.number("uint32_t", "u_q16"), machine.number("uint32_t", "v_q16")]
 
 
-TEXEL = Subject(TEXTURE, "texel_at", texel_domain)
+TEXEL = Subject(TEXTURE, "el_texel_at", texel_domain)
 
 # --- light and corners ------------------------------------------------------------------------------------------------
 
@@ -464,8 +464,8 @@ def test_the_compiler_agrees(name: str) -> None:
         ("modulate", "raster/texel.h", "(light >> 24) + 1U", "(light >> 24) + 10U"),
         ("coloured", FILL, "v->red >> 27 << 6", "v->red >> 27 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
-        ("texel", TEXTURE, "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
-        ("texel", TEXTURE, "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),
+        ("texel", "raster/texel.h", "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
+        ("texel", "raster/texel.h", "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),
         ("light", GATHER, "value > 0xFF00U ? 0xFF00U", "value > 0xFF01U ? 0xFF00U"),
         ("lit", GATHER, "light + 127U", "light + 128U"),
         ("lit", GATHER, "rest + 1U + (rest >> 8)", "rest + (rest >> 8)"),
