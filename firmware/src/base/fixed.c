@@ -9,6 +9,17 @@ EL_INLINE_HERE uint64_t el_multiply_u64(uint64_t a, int32_t b);
 EL_INLINE_HERE uint64_t el_product_u64(uint32_t a, uint32_t b);
 /* NOLINTEND(readability-redundant-declaration) */
 
+#if EL_SMALL_CODE
+uint32_t el_sqrt_u64(uint64_t x)
+{
+    uint32_t root = 0;
+    for (uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
+        const uint32_t more = root | bit;
+        root = el_product_u64(more, more) <= x ? more : root;
+    }
+    return root;
+}
+#else
 /* floor(sqrt(x)), 2^30 <= x, by binary digits (Woo's abacus method); *rest is what remains, at most twice the root. */
 static uint32_t upper_root(uint32_t x, uint32_t *rest)
 {
@@ -42,6 +53,7 @@ uint32_t el_sqrt_u64(uint64_t x)
     const uint32_t root = sum >> 32 != 0 ? UINT32_MAX : (uint32_t)sum;
     return (el_product_u64(root, root) > moved ? root - 1U : root) >> half_shift;
 }
+#endif
 
 int64_t el_scale_i64(int64_t value, uint32_t factor, int shift)
 {
