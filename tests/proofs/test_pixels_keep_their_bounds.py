@@ -351,40 +351,51 @@ FLAT = Subject(
 )
 
 
-def points_domain(machine: Machine) -> list[Any]:
-    """Each w depends on its own shift and on the least; the corners are treated alike. So: all pairs of the two.
-
-    Of a thin record the numbers come from the vertices instead, all others the same: with the least shift of all.
-    """
+def choose_shifts(machine: Machine, all_pairs: bool) -> list[int]:
+    """Each w depends on its own shift and on the least; the corners are treated alike. So: all pairs of the two, or
+    those with the least shift of all."""
     path = machine.path
-    least, own = path.choose(path.atom("least", 0, 31)), path.choose(path.atom("own", 0, 31))
+    least = path.choose(path.atom("least", 0, 31)) if all_pairs else 0
+    own = path.choose(path.atom("own", 0, 31))
     if own < least:
         raise Infeasible
     shifts = [own, least, least]
-    w = [path.atom(f"w{i}", 1 << 15, 65535) for i in range(3)]
-    POINTS[id(path)] = (w, shifts)
-    thin = least == 0 and path.choose(path.atom("thin", 0, 1))
+    POINTS[id(path)] = ([path.atom(f"w{i}", 1 << 15, 65535) for i in range(3)], shifts)
+    return shifts
+
+
+def points_domain(machine: Machine) -> list[Any]:
+    """A record's own reciprocals."""
+    shifts = choose_shifts(machine, True)
+    w, _ = POINTS[id(machine.path)]
+    record = machine.struct("el_record", index=0)
+    # What C takes for the first member of a larger object: here one object has the members of both.
+    record.content |= machine.struct(
+        "el_record_perspective", w=w, w_shifts=sum(s << (5 * i) for i, s in enumerate(shifts))
+    ).content
+    for point in record.content["at"].content["points"].content:
+        machine.put(point.content["x"], 0)
+        machine.put(point.content["y"], 0)
+        machine.put(point.content["z"], 0)
+    kind = machine.constant(machine.unit.constants["EL_RECORD_PERSPECTIVE"])
+    corners = Pointer([machine.struct("el_corner") for _ in range(3)])
+    return [Pointer([record]), machine.exactly("uint32_t", kind), corners]
+
+
+def thin_points_domain(machine: Machine) -> list[Any]:
+    """Of a thin record the numbers come from the vertices."""
+    shifts = choose_shifts(machine, False)
+    w, _ = POINTS[id(machine.path)]
     draw, record = machine.struct("el_draw_state"), machine.struct("el_record", index=0)
     material = machine.struct("el_material", shading=machine.constant(machine.unit.constants["EL_SHADE_TEXTURED"]))
     draw.content["material"].content = Pointer([material])
-    if thin:
-        mesh = machine.struct("el_mesh")
-        draw.content["mesh"].content = Pointer([mesh])
-        mesh.content["triangles"].content = Pointer([_row(machine, "uint16_t", [2, 1, 0])])
-        mesh.content["positions"].content = Pointer([_row(machine, "int16_t", [2 - i] * 3) for i in range(3)])
-    else:
-        # What C takes for the first member of a larger object: here one object has the members of both.
-        record.content |= machine.struct(
-            "el_record_perspective", w=w, w_shifts=sum(s << (5 * i) for i, s in enumerate(shifts))
-        ).content
-        for point in record.content["at"].content["points"].content:
-            machine.put(point.content["x"], 0)
-            machine.put(point.content["y"], 0)
-            machine.put(point.content["z"], 0)
+    mesh = machine.struct("el_mesh")
+    draw.content["mesh"].content = Pointer([mesh])
+    mesh.content["triangles"].content = Pointer([_row(machine, "uint16_t", [2, 1, 0])])
+    mesh.content["positions"].content = Pointer([_row(machine, "int16_t", [2 - i] * 3) for i in range(3)])
     machine.contracts = {"el_transform_vertex": lambda machine, arguments: transformed(machine, arguments, w, shifts)}
-    kind = machine.constant(machine.unit.constants["EL_RECORD_THIN" if thin else "EL_RECORD_PERSPECTIVE"])
     corners = Pointer([machine.struct("el_corner") for _ in range(3)])
-    return [Pointer([draw]), Pointer([record]), machine.exactly("uint32_t", kind), corners]
+    return [Pointer([draw]), Pointer([record]), corners]
 
 
 POINTS: dict[int, tuple[list[Poly], list[int]]] = {}
@@ -400,7 +411,7 @@ def transformed(machine: Machine, arguments: list[Any], w: list[Poly], shifts: l
 def points_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     """1 <= w < 2^31 for each, and the largest of them has its top bit; each is what it was, cut off, or 1."""
     path, (w, shifts) = machine.path, POINTS.pop(id(machine.path))
-    corners = [machine.poly(cell, "w") for cell in arguments[3].cells]
+    corners = [machine.poly(cell, "w") for cell in arguments[-1].cells]
     for corner, was, shift in zip(corners, w, shifts, strict=True):
         path.prove(corner - 1, "w >= 1")
         path.prove((1 << 31) - 1 - corner, "w < 2^31")
@@ -425,6 +436,7 @@ SUBJECTS = {
     "lit, small code": LIT_SMALL,
     "flat": FLAT,
     "points": Subject(GATHER, "gather_points", points_domain, points_check),
+    "points of a thin record": Subject(GATHER, "find_points", thin_points_domain, points_check),
 }
 
 

@@ -627,7 +627,12 @@ def test_the_compiler_agrees(name: str) -> None:
         ("step", FILE, "477218589U", "477218689U"),
         ("step, small code", FILE, "0xFFFFFFFFU / length + 1U", "0xFFFFFFFFU / (length + 1U)"),
         ("piece", FILE, "walk->pixels < most ? walk->pixels : most", "walk->pixels"),
-        ("piece", FILE, "lengths[i] < most ? lengths[i] : most", "lengths[i]"),
+        (
+            "piece",
+            FILE,
+            "i--;\n        length = lengths[i] < most ? lengths[i] : most",
+            "i--;\n        length = lengths[i]",
+        ),
         ("piece", FILE, "walk->w_log2_q8 < walk->enough_q8", "walk->w_log2_q8 < walk->enough_q8 - 1"),
         ("piece", FILE, "} while (i > 0 && walk->w_log2_q8", "} while (i > 0 && walk->w_log2_q8 + 1"),
         ("piece", FILE, "find_knot(&walk->v, walk, at + length", "find_knot(&walk->v, walk, at"),

@@ -144,7 +144,6 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     uint16_t state_name = 0;
     el_corner corners[3];
     el_surface surface;
-    el_count(&painter->stats->setups, 1);
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
@@ -159,6 +158,7 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
         return reaches_on ? name : 0;
     }
 #endif
+    el_count(&painter->stats->setups, 1);
     if (EL_WITH_CARRY && reaches_on) {
         state_name = take_state(c, list, surface.shading);
         if (state_name != 0) {
