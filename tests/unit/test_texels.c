@@ -32,10 +32,11 @@ static el_texture any_texture(seeded *s)
 /* Texels that the whole picture's width has: around what a packed step may have most, or any. */
 static int32_t any_range_q16(seeded *s, const el_texture *texture)
 {
-    const int64_t bound = (1LL << (24 - texture->width_log2)) * SIZE;
+    const int64_t bound = ((int64_t)1 << (24 - texture->width_log2)) * SIZE;
     const int64_t range =
         any_below(s, 2) == 0 ? any_between(s, bound - bound / 32, bound + bound / 32) : (int64_t)any_of_bits(s, 27);
-    const int32_t half = (int32_t)(range / 2 < 2047LL << 16 ? range / 2 : 2047LL << 16);
+    const int64_t most = (int64_t)2047 << 16;
+    const int32_t half = (int32_t)(range / 2 < most ? range / 2 : most);
     return any_below(s, 2) == 0 ? half : -half;
 }
 

@@ -99,9 +99,9 @@ static uint8_t ask(const el_renderer *renderer, uint8_t takers, int32_t y, int32
 {
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
-        if ((takers >> i & 1U) != 0 && sink->unchanged != NULL &&
+        if (((unsigned)takers >> i & 1U) != 0 && sink->unchanged != NULL &&
             sink->unchanged(sink->context, (uint16_t)y, (uint16_t)lines)) {
-            takers = (uint8_t)(takers & ~(1U << i));
+            takers &= (uint8_t) ~(1U << i);
         }
     }
     return takers;

@@ -41,7 +41,7 @@ bool el_quiet_leaves_out(el_renderer *renderer, uint16_t band, bool is_empty);
 /* Sink `index` if it takes the band of which el_quiet_leaves_out was asked last, or, before that, the frame; else NULL. */
 static inline const el_sink *el_quiet_taker(const el_renderer *renderer, unsigned index)
 {
-    return (renderer->quiet.band_takers >> index & 1U) != 0 ? renderer->config.sinks[index] : NULL;
+    return ((unsigned)renderer->quiet.band_takers >> index & 1U) != 0 ? renderer->config.sinks[index] : NULL;
 }
 
 /* The frame is done. */

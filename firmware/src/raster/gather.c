@@ -40,6 +40,13 @@ static uint16_t lit_q8(uint32_t colour, uint32_t light)
 /* Three channels of 8.8 for one of the mesh's vertices. */
 static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t vertex, bool turned, uint16_t rgb_q8[3])
 {
+    if (!EL_SMALL_CODE && !el_is_lit(draw->material)) {
+        /* What lit_q8 makes of a light of 255: n / 255 = 256 colour for n = 255 * 256 colour + 127. */
+        rgb_q8[0] = (uint16_t)(colour[0] << 8);
+        rgb_q8[1] = (uint16_t)(colour[1] << 8);
+        rgb_q8[2] = (uint16_t)(colour[2] << 8);
+        return;
+    }
     const uint32_t light = el_is_lit(draw->material) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
     for (unsigned i = 0; i < 3; i++) {
         rgb_q8[i] = lit_q8(colour[i], light);

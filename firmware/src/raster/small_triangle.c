@@ -199,7 +199,7 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
     draw_rows(&s, target, y_begin, y_bend, y_stop, colour, stats);
     if (rest != NULL) {
         rest->surface = (el_surface){.shading = EL_SHADE_FLAT, .depth = true, .colour = colour};
-        rest->y_middle = y_stop <= y_middle && y_middle < y_end ? (int16_t)y_middle : INT16_MAX;
+        rest->y_middle = (int16_t)(y_stop <= y_middle && y_middle < y_end ? y_middle : INT16_MAX);
         rest->y_end = (int16_t)y_end;
         rest->x_begin = (int16_t)el_first_centre(x_least);
         rest->x_end = (int16_t)el_first_centre(x_most);
