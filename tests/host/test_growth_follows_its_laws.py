@@ -129,7 +129,7 @@ def test_hidden_layers_may_not_be_drawn(
     ]
     _, lines = failures(worse, recorded, capsys)
     for core in growth.MAIN_CORES:
-        assert any(f"on {core}" in line and "instructions per pixel and layer, recorded are" in line for line in lines)
+        assert any(f"on {core}" in line and "instructions per layer behind, recorded are" in line for line in lines)
 
 
 def test_a_slope_beyond_its_bound_is_told(rows: list[growth.Row], capsys: pytest.CaptureFixture[str]) -> None:
