@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-VERTEX_COLOURS, TRIANGLE_COLOURS, NORMALS, TEXTURE_COORDINATES, TEXTURE = 1, 2, 4, 8, 16
+VERTEX_COLOURS, TRIANGLE_COLOURS, NORMALS, TEXTURE_COORDINATES, TEXTURE, CLUSTERS = 1, 2, 4, 8, 16, 32
+CLUSTER_BYTES = 18
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,10 @@ def read_elm(path: Path) -> ElmMesh:
     take(bool(content & NORMALS), "i1", vertices, 3)
     uvs = take(bool(content & TEXTURE_COORDINATES), "<i2", vertices, 2)
     texels = take(bool(content & TEXTURE), "<u2", 1 << height_log2, 1 << width_log2)
+    if content & CLUSTERS:  # how many, and what nothing here needs
+        (clusters,) = struct.unpack_from("<I", data, at)
+        at += 4
+        take(True, "u1", clusters, CLUSTER_BYTES)
     assert at == len(data), f"{len(data) - at} bytes after the last section"
     return ElmMesh(
         positions,
