@@ -150,6 +150,12 @@ static void test_others_are_refused(void)
     }
 }
 
+#else
+/* What does not fit 32 bits, and small code, have the other way alone. */
+static void test_the_short_way_is_for_four_bits(void)
+{
+    TEST_ASSERT_TRUE(EL_SUBPIXEL_BITS > 4 || EL_SMALL_CODE);
+}
 #endif
 
 int main(void)
@@ -158,6 +164,8 @@ int main(void)
 #if EL_WITH_SMALL_PLANES
     RUN_TEST(test_small_triangles_are_as_all_others);
     RUN_TEST(test_others_are_refused);
+#else
+    RUN_TEST(test_the_short_way_is_for_four_bits);
 #endif
     return UNITY_END();
 }
