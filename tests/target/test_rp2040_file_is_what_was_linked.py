@@ -140,7 +140,7 @@ def test_a_quarter_of_the_ram_is_used_at_most(symbols: dict[str, int]) -> None:
 
 
 def test_what_runs_per_pixel_is_in_ram_and_what_starts_it_is_not(symbols: dict[str, int]) -> None:
-    hot = "draw_pass el_triangle_setup el_triangle_draw el_plane_make el_divide_q32 el_texture_walk_piece el_crc32"
+    hot = "draw_pass el_triangle_setup el_triangle_draw el_spans_next el_divide_q32 el_texture_walk_piece el_crc32"
     for name in hot.split():
         assert symbols["el_data_begin"] <= symbols[name] < symbols["el_data_end"], name
     for name in ("memcpy", "main"):

@@ -14,7 +14,7 @@ from emulators import CORES, STATUS_FAULT, Core, build, run, seeded_copy, unity_
 from target_tools import REPOSITORY, Simulator, missing
 
 # What cannot run without an operating system, and why. tests/unit/CMakeLists.txt leaves the same out.
-NATIVE_ONLY = {"test_stream_ports": "sockets and pseudo-terminals"}
+NATIVE_ONLY = {"test_stream_ports": "sockets and pseudo-terminals", "test_workers": "threads"}
 
 Results = dict[str, str]
 """Test -> what Unity says of it: PASS, FAIL, IGNORE."""

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/rgb565.h"
-#include "raster/list.h"
+#include "raster/gather.h"
 #include "seeded.h"
 
 enum { BYTES = 1024, ONE_Q14 = 16384 };

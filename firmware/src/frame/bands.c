@@ -4,6 +4,8 @@
 #include "base/fixed.h"
 #include "frame/debug_hooks.h"
 #include "frame/quiet.h"
+#include "raster/gather.h"
+#include "raster/hidden.h"
 #include "raster/plain.h"
 #include "raster/small_triangle.h"
 

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "frame/renderer.h"
+#include "raster/triangle.h"
 
 #if EL_WITH_DEBUG_VIEWS
 

@@ -8,6 +8,7 @@
 #include "frame/drawing.h"
 #include "frame/quiet.h"
 #include "geometry/clip.h"
+#include "raster/gather.h"
 
 /* Attributes of corners that are cut. */
 enum { U, V, RGB };

@@ -8,7 +8,6 @@
 
 #include "base/sink.h"
 #include "base/stats.h"
-#include "raster/hidden.h"
 #include "raster/list.h"
 
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
@@ -23,6 +22,8 @@ typedef struct el_carrying {
     uint32_t end;                               /* ... and of all */
     uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; each begins with the next one's name; 0: none */
 } el_carrying;
+
+typedef struct el_hidden el_hidden;
 
 typedef struct el_painter {
     uint8_t current;      /* which of `bands` is drawn into next */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/fixed.h"
+#include "base/divide.h"
 
 /* Two planes for each coordinate that is cut, d first, then x and y: a lower one with an even number, an upper one. */
 enum { PLANE_NEAR, PLANE_FAR, PLANE_COUNT = 6 };

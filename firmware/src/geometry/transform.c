@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/fixed.h"
+#include "base/divide.h"
 #include "geometry/cull.h"
 
 /* Position of models and cameras, Q16.16: +-16384 units. */

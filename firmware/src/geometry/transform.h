@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/divide.h"
+#include "base/fixed.h"
 #include "base/options.h"
 #include "base/status.h"
 #include "geometry/limits.h"

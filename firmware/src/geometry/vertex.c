@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "base/fixed.h"
+#include "base/divide.h"
 
 _Static_assert(EL_SUBPIXEL_BITS > 4 || EL_GUARD_SUB < 32767, "rounding may add a unit");
 

@@ -1,5 +1,7 @@
 /* From a record of the display list back to its mesh: colours, light and texture coordinates of the corners. Light is
  * computed here, for triangles that are drawn, not for every vertex of the mesh. */
+#include "raster/gather.h"
+
 #include <stddef.h>
 #include <string.h>
 

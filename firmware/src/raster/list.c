@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/fixed.h"
+#include "raster/edge.h"
 
 void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines)
 {

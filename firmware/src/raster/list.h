@@ -27,14 +27,13 @@
 
 #include "geometry/transform.h"
 #include "raster/material.h"
-#include "raster/triangle.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 enum { EL_LIST_UNIT = 8, EL_LIST_MAX_BYTES = 65535 * EL_LIST_UNIT };
-#define EL_LIST_BYTES(bytes) ((uint32_t)((bytes) + EL_LIST_UNIT - 1) / EL_LIST_UNIT * EL_LIST_UNIT)
+#define EL_LIST_BYTES(bytes) (((uint32_t)(bytes) + EL_LIST_UNIT - 1U) / EL_LIST_UNIT * EL_LIST_UNIT)
 
 enum { EL_GROUP_BANDS = 2 }; /* as many as a core has buffers for */
 
@@ -152,12 +151,13 @@ static inline const el_draw_state *el_list_draw(const el_list *list, const el_re
 /* Bytes of a record of that kind, in whole units. */
 static inline uint32_t el_list_record_bytes(el_record_kind kind)
 {
+    /* In the order of their kinds: this header is for C++ too, which cannot name them here. */
     static const uint8_t bytes[EL_RECORD_KINDS] = {
-        [EL_RECORD_THIN] = EL_LIST_BYTES(EL_THIN_BYTES),
-        [EL_RECORD_PLAIN] = EL_LIST_BYTES(sizeof(el_record)),
-        [EL_RECORD_CUT] = EL_LIST_BYTES(sizeof(el_record)),
-        [EL_RECORD_PERSPECTIVE] = EL_LIST_BYTES(sizeof(el_record_perspective)),
-        [EL_RECORD_CLIPPED] = EL_LIST_BYTES(sizeof(el_record_clipped)),
+        EL_LIST_BYTES(EL_THIN_BYTES),
+        EL_LIST_BYTES(sizeof(el_record)),
+        EL_LIST_BYTES(sizeof(el_record)),
+        EL_LIST_BYTES(sizeof(el_record_perspective)),
+        EL_LIST_BYTES(sizeof(el_record_clipped)),
     };
     return bytes[kind];
 }
@@ -263,16 +263,6 @@ void el_list_make_thin(el_list *list, int32_t row_begin);
 
 /* Takes the bin of `band` out of the list: the first of its records, chained by `next`; 0 when it is empty. */
 uint16_t el_list_take_bin(const el_list *list, uint16_t band);
-
-/* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
-void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
-
-/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
- * vertices it transformed for that. */
-unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
-
-/* The same for its depth alone: corners without attributes, a flat surface in no colour. */
-unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,26 @@
+/* From a record of the display list back to what its triangle is set up from. Private to the renderer. */
+#ifndef EL_RASTER_GATHER_H
+#define EL_RASTER_GATHER_H
+
+#include "raster/list.h"
+#include "raster/triangle.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
+void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
+
+/* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
+ * vertices it transformed for that. */
+unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+
+/* The same for its depth alone: corners without attributes, a flat surface in no colour. */
+unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
