@@ -42,7 +42,7 @@ def test_no_scene_takes_longer_than_was_recorded(scene: str, course: str, measur
 def test_a_whole_frame_takes_the_wire_what_it_must(measured: Measure) -> None:
     for scene in pico_wire.SCENES[1:]:
         found = measured(scene, "whole")
-        # What is left of a frame's last band when the next frame begins is counted there, a little more or less each time.
+        # What is left of a frame's last band when the next frame begins is counted there, a little more or less.
         assert found.wire_cycles == pytest.approx(pico_wire.WIRE_CYCLES, rel=0.001), found
         assert found.bands == 60
 
