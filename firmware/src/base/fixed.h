@@ -15,6 +15,13 @@
 #define EL_PRODUCTS_IN_HALVES
 #endif
 
+/* What was read from memory is read again behind this: of eight registers none is kept for it. */
+#if defined(EL_PRODUCTS_IN_HALVES) && defined(__thumb__)
+#define EL_READ_AGAIN() __asm__ volatile("" ::: "memory")
+#else
+#define EL_READ_AGAIN() ((void)0)
+#endif
+
 /* Bits of x: 0 for 0, 32 for x >= 2^31. */
 static inline int el_bit_length_u32(uint32_t x)
 {
@@ -68,6 +75,11 @@ static inline uint64_t el_abs_u64(int64_t x)
 }
 
 static inline int32_t el_min_i32(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline uint32_t el_min_u32(uint32_t a, uint32_t b)
 {
     return a < b ? a : b;
 }

@@ -45,8 +45,14 @@ typedef struct el_cull_rows {
 
 static inline el_verdict el_cull_by_rows(const el_culling *culling, el_cull_rows *rows)
 {
-    rows->begin = el_max_i32(rows->first, culling->row_begin);
-    return rows->end <= culling->row_begin || rows->begin >= culling->row_end ? EL_VERDICT_OTHER : EL_VERDICT_SEEN;
+    rows->begin = rows->first;
+    if (rows->first < culling->row_begin) {
+        rows->begin = culling->row_begin;
+        if (rows->end <= culling->row_begin) {
+            return EL_VERDICT_OTHER;
+        }
+    }
+    return rows->begin < culling->row_end ? EL_VERDICT_SEEN : EL_VERDICT_OTHER;
 }
 
 static inline el_verdict el_cull(const el_culling *culling, const el_screen_vertex *const v[3], el_cull_rows *rows)
@@ -127,12 +133,12 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
 {
     const int32_t x0 = (uint16_t)a->x;
     const int32_t y0 = (uint16_t)a->y;
-    const int32_t x1 = (uint16_t)b->x;
-    const int32_t y1 = (uint16_t)b->y;
-    const int32_t x2 = (uint16_t)c->x;
-    const int32_t y2 = (uint16_t)c->y;
+    const int32_t x1 = (uint16_t)b->x - x0;
+    const int32_t y1 = (uint16_t)b->y - y0;
+    const int32_t x2 = (uint16_t)c->x - x0;
+    const int32_t y2 = (uint16_t)c->y - y0;
     /* Each product is below 2^30, and so is the area. */
-    const int32_t area = ((x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0)) * culling->facing;
+    const int32_t area = (x1 * y2 - y1 * x2) * culling->facing;
     if (area >= 0) {
         if (area == 0) {
             return EL_VERDICT_EMPTY;
@@ -141,10 +147,16 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
             return EL_VERDICT_BACK;
         }
     }
-    rows->first = el_first_centre(el_min_i32(y0, el_min_i32(y1, y2)));
-    rows->end = el_first_centre(el_max_i32(y0, el_max_i32(y1, y2)));
-    if (rows->first == rows->end ||
-        el_first_centre(el_min_i32(x0, el_min_i32(x1, x2))) == el_first_centre(el_max_i32(x0, el_max_i32(x1, x2)))) {
+    const int32_t top = el_min_i32(el_min_i32(y1, y2), 0);
+    const int32_t bottom = el_max_i32(el_max_i32(y1, y2), 0);
+    rows->first = el_first_centre(y0 + top);
+    rows->end = el_first_centre(y0 + bottom);
+    if (rows->first == rows->end) {
+        return EL_VERDICT_EMPTY;
+    }
+    /* An area is its box' at most: where it is that of a column as wide as a pixel, a column of centres lies inside. */
+    if (area > (top - bottom) * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0)) ==
+                                                    el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0))) {
         return EL_VERDICT_EMPTY;
     }
     return el_cull_by_rows(culling, rows);

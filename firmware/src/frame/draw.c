@@ -49,32 +49,6 @@ static bool make_room(el_renderer *renderer)
     return !was_open;
 }
 
-static EL_SPECIALISED el_point point_of(const el_screen_vertex *v)
-{
-    return (el_point){.x = v->x, .y = v->y, .z = v->z};
-}
-
-/* What a whole triangle's record of that kind holds beside its run. */
-static EL_SPECIALISED void fill_record(el_record *record, uint16_t index, const el_screen_vertex *const v[3],
-                                       el_record_kind kind, int32_t first_row)
-{
-    record->index = index;
-    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
-        record->at.row = (int16_t)first_row;
-        return;
-    }
-    record->at.points[0] = point_of(v[0]);
-    record->at.points[1] = point_of(v[1]);
-    record->at.points[2] = point_of(v[2]);
-    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
-        el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
-        perspective->w[0] = v[0]->w;
-        perspective->w[1] = v[1]->w;
-        perspective->w[2] = v[2]->w;
-        perspective->w_shifts = (uint16_t)(v[0]->w_shift | v[1]->w_shift << 5 | v[2]->w_shift << 10);
-    }
-}
-
 static void fill_clipped(el_record *record, const el_clip_corner *const corners[3])
 {
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
@@ -89,11 +63,6 @@ static void fill_clipped(el_record *record, const el_clip_corner *const corners[
     }
 }
 
-static el_record_kind whole_kind(const el_drawing *d)
-{
-    return el_list_is_thin(d->list) ? EL_RECORD_THIN : d->kind;
-}
-
 /* A triangle on the screen: culls it, or puts it on the list. `cut` has the corners of a clipped one, else NULL. */
 static void add_triangle(el_drawing *d, uint16_t index, const el_screen_vertex *const v[3],
                          const el_clip_corner *const cut[3])
@@ -106,7 +75,7 @@ static void add_triangle(el_drawing *d, uint16_t index, const el_screen_vertex *
         el_cull_rows rows;
         const el_verdict verdict = el_cull(&d->culling, v, &rows);
         if (verdict == EL_VERDICT_SEEN) {
-            const el_record_kind kind = cut != NULL ? d->cut_kind : whole_kind(d);
+            const el_record_kind kind = cut != NULL ? d->cut_kind : el_drawing_kind(d);
             const int32_t row_end = el_min_i32(rows.end, d->culling.row_end);
             el_record *const record = el_list_append(d->list, d->state, kind, rows.begin, row_end);
             if (record == NULL) {
@@ -123,7 +92,7 @@ static void add_triangle(el_drawing *d, uint16_t index, const el_screen_vertex *
                 find_rows(d);
                 continue;
             }
-            fill_record(record, index, v, kind, rows.first);
+            el_fill_record(record, index, v, kind, rows.first);
             if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
                 fill_clipped(record, cut);
             }
@@ -230,7 +199,18 @@ static void draw_triangle(el_drawing *d, uint32_t index)
     const uint16_t *const vertices = d->mesh->triangles[index];
     el_screen_vertex copies[3];
     el_screen_vertex *v[3];
+#if EL_CULLS_IN_VIEW
+    if (index < d->stretch_end) {
+        v[0] = d->vertices + 3U * (index - d->stretch_begin);
+        v[1] = v[0] + 1;
+        v[2] = v[0] + 2;
+    } else {
+        el_vertices_clear_overlaid(d);
+        el_vertices_find(d, vertices, v, copies);
+    }
+#else
     el_vertices_find(d, vertices, v, copies);
+#endif
     if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) != 0) {
         d->verdicts[EL_VERDICT_OUTSIDE]++;
         return;
@@ -250,67 +230,6 @@ static void draw_triangle(el_drawing *d, uint32_t index)
     }
 }
 
-#if EL_CULLS_IN_VIEW
-/* Draws the triangles from number `index` on while they are simple: within the view or all beside it, their vertices in
- * their places, and room for the record in the open run. Returns the number of the first that is not. All that changes
- * stays in registers. `direct` as in `d`; `shared` as in its list. */
-static EL_SPECIALISED uint32_t draw_in_view(el_drawing *d, uint32_t index, uint32_t end, bool direct, bool shared)
-{
-    const el_record_kind kind = whole_kind(d);
-    el_list list = *d->list;
-    if (list.run == 0 || ((const el_run *)el_list_at(&list, list.run))->kind != (uint8_t)kind) {
-        return index;
-    }
-    const uint32_t record_bytes = el_list_record_bytes(kind);
-    const el_culling culling = d->culling;
-    const el_screen_vertex *const vertices = d->vertices;
-    const uint32_t slot_mask = direct ? UINT16_MAX : d->slot_mask;
-    const uint16_t(*triangle)[3] = &d->mesh->triangles[index];
-    const uint32_t first = index;
-    uint32_t verdicts[EL_VERDICT_SEEN] = {0};
-    for (; index < end; index++, triangle++) {
-        if (!direct && !el_vertices_are_cached(d, *triangle)) {
-            break;
-        }
-        const el_screen_vertex *const v[3] = {vertices + ((*triangle)[0] & slot_mask),
-                                              vertices + ((*triangle)[1] & slot_mask),
-                                              vertices + ((*triangle)[2] & slot_mask)};
-        if ((v[0]->code | v[1]->code | v[2]->code) != 0) {
-            if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) == 0) {
-                break;
-            }
-            verdicts[EL_VERDICT_OUTSIDE]++;
-            continue;
-        }
-        el_cull_rows rows;
-        const el_verdict verdict = el_cull_in_view(&culling, v[0], v[1], v[2], &rows);
-        if (verdict != EL_VERDICT_SEEN) {
-            verdicts[verdict]++;
-            continue;
-        }
-        const int32_t row_end = el_min_i32(rows.end, culling.row_end);
-        const uint32_t share_bytes = shared ? el_list_share_bytes(&list, rows.begin, row_end) : 0U;
-        el_record *const record = el_list_append_same(&list, record_bytes, share_bytes, rows.begin);
-        if (record == NULL) {
-            break;
-        }
-#if EL_WITH_WORKERS
-        if (share_bytes != 0) {
-            list.used = el_list_share(d->list, record, list.used, rows.begin, row_end);
-        }
-#endif
-        fill_record(record, (uint16_t)index, v, kind, rows.first);
-    }
-    *d->list = list;
-    d->verdicts[EL_VERDICT_SEEN] += index - first;
-    for (unsigned i = 0; i < EL_VERDICT_SEEN; i++) {
-        d->verdicts[i] += verdicts[i];
-        d->verdicts[EL_VERDICT_SEEN] -= verdicts[i];
-    }
-    return index;
-}
-#endif
-
 /* What any triangle takes of the list's memory at most. */
 static uint32_t most_bytes(const el_list *list)
 {
@@ -327,11 +246,7 @@ static
 {
     for (uint32_t i = begin; i < end; i++) {
 #if EL_CULLS_IN_VIEW
-        if (EL_WITH_WORKERS && d->list->is_shared) {
-            i = draw_in_view(d, i, end, d->direct, true);
-        } else {
-            i = d->direct ? draw_in_view(d, i, end, true, false) : draw_in_view(d, i, end, false, false);
-        }
+        i = el_drawing_list_in_view(d, i, end);
         if (i == end) {
             break;
         }

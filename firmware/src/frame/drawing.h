@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "frame/cull.h"
 #include "frame/renderer.h"
@@ -28,10 +29,63 @@ typedef struct el_drawing {
     uint32_t vertex_bytes; /* of memory there */
     uint16_t *cached;      /* indices of the vertices in the cache's slots */
     el_culling culling;
+#if EL_CULLS_IN_VIEW
+    /* Triangles [begin, end) ask for vertices that no other one asks for: these lie at d->vertices in their order, and so
+     * over some slots of the cache. */
+    uint32_t stretch_begin, stretch_end;
+    uint32_t overlaid; /* slots whose vertices are not what `cached` says */
+#endif
     uint32_t transformed;           /* vertices so far */
     uint32_t verdicts[EL_VERDICTS]; /* how many triangles had each */
     uint32_t clipped;
 } el_drawing;
+
+/* The kind of the records of its whole triangles, now. */
+static inline el_record_kind el_drawing_kind(const el_drawing *d)
+{
+    return el_list_is_thin(d->list) ? EL_RECORD_THIN : d->kind;
+}
+
+static EL_SPECIALISED void el_fill_point(el_point *point, const el_screen_vertex *v)
+{
+#if EL_CULLS_IN_VIEW && defined(EL_PRODUCTS_IN_HALVES)
+    /* As half words without a sign, which Thumb's first set loads at once. */
+    *(uint16_t *)&point->x = *(const uint16_t *)&v->x;
+    *(uint16_t *)&point->y = *(const uint16_t *)&v->y;
+#else
+    point->x = v->x;
+    point->y = v->y;
+#endif
+    point->z = v->z;
+}
+
+static EL_SPECIALISED void el_fill_points(el_record *record, const el_screen_vertex *const v[3])
+{
+    el_fill_point(&record->at.points[0], v[0]);
+    el_fill_point(&record->at.points[1], v[1]);
+    el_fill_point(&record->at.points[2], v[2]);
+}
+
+/* What a whole triangle's record of that kind holds beside its run. */
+static EL_SPECIALISED void el_fill_record(el_record *record, uint16_t index, const el_screen_vertex *const v[3],
+                                          el_record_kind kind, int32_t first_row)
+{
+    record->index = index;
+    if (kind == EL_RECORD_PLAIN) {
+        el_fill_points(record, v);
+    } else if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+        record->at.row = (int16_t)first_row;
+    } else {
+        el_fill_points(record, v);
+    }
+    if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
+        el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
+        perspective->w[0] = v[0]->w;
+        perspective->w[1] = v[1]->w;
+        perspective->w[2] = v[2]->w;
+        perspective->w_shifts = (uint16_t)(v[0]->w_shift | v[1]->w_shift << 5 | v[2]->w_shift << 10);
+    }
+}
 
 /* Places the vertices: over the depth bands if no band is open, and over at most a quarter of the list's free memory. */
 void el_vertices_place(el_drawing *d);
@@ -47,6 +101,21 @@ void el_vertices_cache(el_drawing *d, uint32_t index);
 
 /* A triangle's vertices: at their places, or where two of them share one in the cache, in small code, and in parts, copies. */
 void el_vertices_find(el_drawing *d, const uint16_t indices[3], el_screen_vertex *v[3], el_screen_vertex copies[3]);
+
+#if EL_CULLS_IN_VIEW
+/* The cache is to be looked at again after a stretch. */
+static inline void el_vertices_clear_overlaid(el_drawing *d)
+{
+    if (d->overlaid != 0) {
+        memset(d->cached, 0xFF, d->overlaid * sizeof d->cached[0]);
+        d->overlaid = 0;
+    }
+}
+
+/* Draws the triangles from number `index` on while they are simple: within the view or all beside it, and room for the
+ * record in the open run. Returns the number of the first that is not. */
+uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end);
+#endif
 
 #if !EL_SMALL_CODE
 /* Puts a triangle's vertices into the cache. False where they do not go there together. */

@@ -71,6 +71,10 @@ void el_vertices_begin_cache(el_drawing *d)
     d->slot_mask = (1U << (el_bit_length_u32(most) - 1)) - 1U;
     d->cached = (uint16_t *)(void *)(d->vertices + d->slot_mask + 1U);
     d->next_vertex = NO_VERTEX;
+#if EL_CULLS_IN_VIEW
+    d->stretch_end = 0;
+    d->overlaid = 0;
+#endif
     memset(d->cached, 0xFF, (d->slot_mask + 1U) * sizeof d->cached[0]);
 }
 

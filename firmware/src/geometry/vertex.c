@@ -46,13 +46,6 @@ void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3]
     }
 }
 
-/* What was read from memory is read again behind this: of eight registers none is kept for it. */
-#if defined(__thumb__)
-#define READ_AGAIN() __asm__ volatile("" ::: "memory")
-#else
-#define READ_AGAIN() ((void)0)
-#endif
-
 static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p, bool plain)
 {
     /* The lower sum is below 3 * 2^14 * 2^15 + 2^15. The upper one with what is carried is the whole one over 2^split:
@@ -69,7 +62,7 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, el_p
     high += (uint32_t)row->high[1] * (uint32_t)p.y;
     high += (uint32_t)row->high[2] * (uint32_t)p.z;
     const int32_t value = (int32_t)(plain ? high : row->whole + (uint32_t)((int32_t)high >> transform->over));
-    READ_AGAIN();
+    EL_READ_AGAIN();
     return value;
 }
 

@@ -1,0 +1,172 @@
+/* A draw call's triangles that are simple: within the view or all beside it. Nearly all are.
+ *
+ * They take two loops, because one would need more registers than there are: the first looks at triangles and writes the
+ * records of those that are seen, the second puts these into their bins. */
+#include "base/fixed.h"
+#include "frame/drawing.h"
+
+#if EL_CULLS_IN_VIEW
+
+enum {
+    STRETCH = 64,      /* triangles, at most */
+    LEAST_STRETCH = 4, /* so many are worth what they push out of the cache */
+    CHUNK = 32         /* triangles, after which another stretch is looked for */
+};
+
+/* Where a triangle's vertices are. */
+typedef enum source {
+    DIRECT,   /* all are at their places */
+    CACHED,   /* in the cache, once they are put there */
+    STRETCHED /* behind those of the triangle before */
+} source;
+
+/* Puts the records in [record, end) of the open run into their bins; each one's `next` has its first row in the pass. */
+static EL_APART void put_records(el_drawing *d, uint8_t *record, const uint8_t *end, uint32_t record_bytes)
+{
+    const el_list list = *d->list;
+    uint32_t count = 0;
+    for (; record != end; record += record_bytes) {
+        el_record *const r = (el_record *)(void *)record;
+        el_list_put(&list, r, r->next);
+        count++;
+    }
+    d->verdicts[EL_VERDICT_SEEN] += count;
+}
+
+/* Triangles so far that do not face away, which are not counted one by one. */
+static inline uint32_t all_but_backs(const el_drawing *d)
+{
+    return d->verdicts[EL_VERDICT_EMPTY] + d->verdicts[EL_VERDICT_OUTSIDE] + d->verdicts[EL_VERDICT_OTHER] +
+           d->verdicts[EL_VERDICT_SEEN];
+}
+
+/* Looks at the triangles from number `index` on while they are simple, and there is room for the record in the open run.
+ * Returns the number of the first that is not. `shared` as in the list. */
+static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint32_t end, source from, bool shared)
+{
+    const el_list list = *d->list;
+    const el_record_kind kind = el_drawing_kind(d);
+    const uint32_t record_bytes = el_list_record_bytes(kind);
+    const bool is_open = list.run != 0 && ((const el_run *)el_list_at(&list, list.run))->kind == (uint8_t)kind;
+    uint8_t *next = list.base + list.used;
+    const uint8_t *const last = list.base + (is_open ? list.end - record_bytes : 0U); /* where there is room for one */
+    const el_culling culling = d->culling;
+    const el_screen_vertex *const vertices = d->vertices;
+    const uint32_t slot_mask = from == CACHED ? d->slot_mask : UINT16_MAX;
+    const uint16_t(*triangle)[3] = &d->mesh->triangles[index];
+    const el_screen_vertex *stretched = vertices + 3U * (index - d->stretch_begin);
+    const uint32_t first = index;
+    const uint32_t others = all_but_backs(d);
+    for (; index < end; index++, triangle++, stretched += 3) {
+        if (from == CACHED && !el_vertices_are_cached(d, *triangle)) {
+            break;
+        }
+        const el_screen_vertex *v[3] = {stretched, stretched + 1, stretched + 2};
+        if (from != STRETCHED) {
+            v[0] = vertices + ((*triangle)[0] & slot_mask);
+            v[1] = vertices + ((*triangle)[1] & slot_mask);
+            v[2] = vertices + ((*triangle)[2] & slot_mask);
+        }
+        if ((v[0]->code | v[1]->code | v[2]->code) != 0) {
+            if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) == 0) {
+                break;
+            }
+            d->verdicts[EL_VERDICT_OUTSIDE]++;
+            continue;
+        }
+        el_cull_rows rows;
+        const el_verdict verdict = el_cull_in_view(&culling, v[0], v[1], v[2], &rows);
+        if (verdict != EL_VERDICT_SEEN) {
+            if (verdict != EL_VERDICT_BACK) {
+                d->verdicts[verdict]++;
+            }
+            continue;
+        }
+        const int32_t row_end = el_min_i32(rows.end, culling.row_end);
+        if (next + (shared ? el_list_share_bytes(&list, rows.begin, row_end) : 0U) > last) {
+            break;
+        }
+        el_record *const record = (el_record *)(void *)next;
+        record->next = (uint16_t)rows.begin;
+        record->run = list.run;
+        EL_READ_AGAIN();
+        el_fill_record(record, (uint16_t)index, v, kind, rows.first);
+        next += record_bytes;
+#if EL_WITH_WORKERS
+        if (shared) {
+            put_records(d, (uint8_t *)record, next, record_bytes);
+            next = list.base + el_list_share(&list, record, (uint32_t)(next - list.base), rows.begin, row_end);
+        }
+#endif
+    }
+    if (!shared) {
+        put_records(d, list.base + list.used, next, record_bytes);
+    }
+    d->list->used = (uint32_t)(next - list.base);
+    d->verdicts[EL_VERDICT_BACK] += index - first - (all_but_backs(d) - others);
+    return index;
+}
+
+/* How many of the next triangles, a few at least, ask for one vertex after the other; 0: fewer. In pairs, which are three
+ * words where they are aligned. */
+static uint32_t stretch_length(const el_drawing *d, uint32_t index, uint32_t end)
+{
+    const uint16_t *const triangle = d->mesh->triangles[index];
+    const uint32_t vertex = triangle[0];
+    const uint32_t most = el_min_u32(el_min_u32(end - index, (d->slot_mask + 1U) / 3U), STRETCH);
+    if (triangle[1] != vertex + 1U || triangle[5] != vertex + 5U || vertex + 3U * most > d->mesh->vertex_count ||
+        ((uintptr_t)triangle & 3U) != 0) {
+        return 0;
+    }
+    typedef uint32_t __attribute__((may_alias)) pair_of_u16;
+    const pair_of_u16 *words = (const pair_of_u16 *)(const void *)triangle;
+    /* No half overflows: there are vertices of these numbers. */
+    uint32_t expected = words[0];
+    uint32_t length = 0;
+    while (length + 2U <= most && words[0] == expected && words[1] == expected + 0x20002U &&
+           words[2] == expected + 0x40004U) {
+        expected += 0x60006U;
+        words += 3;
+        length += 2U;
+    }
+    return length >= LEAST_STRETCH ? length : 0U;
+}
+
+/* Triangles whose vertices wait in the cache or are to be put there. Meshes without shared vertices need no look at it. */
+static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
+{
+    while (index < end) {
+        uint32_t stop;
+        if (index >= d->stretch_end) {
+            const uint32_t length = stretch_length(d, index, end);
+            if (length != 0) {
+                d->stretch_begin = index;
+                d->stretch_end = index + length;
+                d->overlaid = d->overlaid > 3U * length ? d->overlaid : 3U * length;
+                el_vertices_transform(d, d->mesh->triangles[index][0], 3U * length, d->vertices);
+            }
+        }
+        if (index < d->stretch_end) {
+            stop = el_min_u32(end, d->stretch_end);
+            index = list_in_view(d, index, stop, STRETCHED, false);
+        } else {
+            el_vertices_clear_overlaid(d);
+            stop = el_min_u32(end, index + CHUNK - index % 2U);
+            index = list_in_view(d, index, stop, CACHED, false);
+        }
+        if (index != stop) {
+            break;
+        }
+    }
+    return index;
+}
+
+uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end)
+{
+    if (EL_WITH_WORKERS && d->list->is_shared) {
+        return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, true);
+    }
+    return d->direct ? list_in_view(d, index, end, DIRECT, false) : list_cached(d, index, end);
+}
+
+#endif
