@@ -12,12 +12,14 @@ static recording whole, record, second, third;
 static uint8_t memory[GUARD + PLENTY + GUARD + 8] __attribute__((aligned(8)));
 static size_t arena_at; /* guards lie before and behind */
 static el_renderer renderer;
-static bool prepass; /* of the frames that `start` is for */
+static bool prepass;  /* of the frames that `start` is for */
+static bool unshared; /* of the scenes that `draw_whole` draws */
 
 void setUp(void)
 {
     arena_at = GUARD;
     prepass = false;
+    unshared = false;
     memset(&record, 0, sizeof record);
     memset(&second, 0, sizeof second);
     memset(&third, 0, sizeof third);
@@ -59,11 +61,33 @@ static void expect_same(const seeded *s, const char *how, uint16_t band_lines, s
     }
 }
 
+/* Makes stretches of triangles that ask for one vertex after the other, of any length, between others; a few of them have
+ * another corner. */
+static void unshare(seeded *s, any_mesh *m)
+{
+    for (unsigned i = any_below(s, 6); i < SCENE_TRIANGLES; i += any_below(s, 4)) {
+        unsigned vertex = any_below(s, SCENE_VERTICES / 2);
+        for (unsigned left = any_below(s, 16); left > 0 && i < SCENE_TRIANGLES && vertex + 3 <= SCENE_VERTICES;
+             left--) {
+            for (unsigned k = 0; k < 3; k++) {
+                m->triangles[i][k] = (uint16_t)vertex++;
+            }
+            i++;
+        }
+    }
+    for (unsigned i = 0; i < 4; i++) {
+        m->triangles[any_below(s, SCENE_TRIANGLES)][any_below(s, 3)] = (uint16_t)any_below(s, SCENE_VERTICES);
+    }
+}
+
 /* `whole` gets the scene as one band in one pass. */
 static void draw_whole(seeded *s)
 {
     memset(&whole, 0, sizeof whole);
     fill_scene(s, &scene);
+    for (unsigned i = 0; i < SCENE_MESHES && unshared; i++) {
+        unshare(s, &scene.meshes[i]);
+    }
     start(&whole, HEIGHT, PLENTY);
     play_scene(&renderer, &scene);
     TEST_ASSERT_EQUAL_UINT32(1, whole.stats.passes);
@@ -129,11 +153,11 @@ static void test_same_pixels_for_every_band_height(void)
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(1000), sums.clipped);
 }
 
-static void test_same_pixels_for_every_arena(void)
+static void draw_in_every_arena(uint64_t seed)
 {
     static const size_t more[] = {0, 8, 16, 40, 104, 264, 520, 1032, 2056, 4104};
     reached sums = {0};
-    for (seeded s = seeded_from(61); s.round < SCENES; s.round++) {
+    for (seeded s = seeded_from(seed); s.round < SCENES; s.round++) {
         draw_whole(&s);
         for (unsigned i = 0; i < BAND_HEIGHTS; i++) {
             const size_t least = EL_MIN_MEMORY_BYTES((unsigned)WIDTH, (unsigned)HEIGHT, (unsigned)band_heights[i]);
@@ -145,6 +169,18 @@ static void test_same_pixels_for_every_arena(void)
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.flushes);
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100), sums.extra_vertices);
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(10), sums.extra_setups);
+}
+
+static void test_same_pixels_for_every_arena(void)
+{
+    draw_in_every_arena(61);
+}
+
+/* Vertices that one triangle alone asks for are not looked for in the cache, and lie over it. */
+static void test_same_pixels_where_no_vertex_is_shared(void)
+{
+    unshared = true;
+    draw_in_every_arena(67);
 }
 
 /* Arenas whose size is no multiple of 8, at any address. */
@@ -325,6 +361,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_same_pixels_for_every_band_height);
     RUN_TEST(test_same_pixels_for_every_arena);
+    RUN_TEST(test_same_pixels_where_no_vertex_is_shared);
     RUN_TEST(test_odd_arenas);
     RUN_TEST(test_held_bands_do_not_change);
     RUN_TEST(test_three_sinks_see_the_same);

@@ -147,16 +147,24 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
             return EL_VERDICT_BACK;
         }
     }
-    const int32_t top = el_min_i32(el_min_i32(y1, y2), 0);
-    const int32_t bottom = el_max_i32(el_max_i32(y1, y2), 0);
-    rows->first = el_first_centre(y0 + top);
-    rows->end = el_first_centre(y0 + bottom);
-    if (rows->first == rows->end) {
+    EL_READ_AGAIN();
+    int32_t top = (uint16_t)b->y;
+    int32_t bottom = (uint16_t)c->y;
+    if (top > bottom) {
+        top = (uint16_t)c->y;
+        bottom = (uint16_t)b->y;
+    }
+    top = el_min_i32(top, y0);
+    bottom = el_max_i32(bottom, y0);
+    const int32_t height = bottom - top;
+    rows->first = el_first_centre(top);
+    rows->end = el_first_centre(bottom);
+    if (height < EL_SUBPIXELS && rows->first == rows->end) {
         return EL_VERDICT_EMPTY;
     }
     /* An area is its box' at most: where it is that of a column as wide as a pixel, a column of centres lies inside. */
-    if (area > (top - bottom) * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0)) ==
-                                                    el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0))) {
+    if (area > -height * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0)) ==
+                                             el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0))) {
         return EL_VERDICT_EMPTY;
     }
     return el_cull_by_rows(culling, rows);

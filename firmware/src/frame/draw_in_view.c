@@ -33,6 +33,14 @@ static EL_APART void put_records(el_drawing *d, uint8_t *record, const uint8_t *
     d->verdicts[EL_VERDICT_SEEN] += count;
 }
 
+/* Not an array's address: the corners would be kept in memory for it. */
+static EL_APART void fill_perspective(el_record *record, const el_screen_vertex *a, const el_screen_vertex *b,
+                                      const el_screen_vertex *c)
+{
+    const el_screen_vertex *const v[3] = {a, b, c};
+    el_fill_record(record, record->index, v, EL_RECORD_PERSPECTIVE, 0);
+}
+
 /* Triangles so far that do not face away, which are not counted one by one. */
 static inline uint32_t all_but_backs(const el_drawing *d)
 {
@@ -89,8 +97,15 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
         el_record *const record = (el_record *)(void *)next;
         record->next = (uint16_t)rows.begin;
         record->run = list.run;
+        record->index = (uint16_t)index;
         EL_READ_AGAIN();
-        el_fill_record(record, (uint16_t)index, v, kind, rows.first);
+        if (kind == EL_RECORD_PLAIN) {
+            el_fill_points(record, v);
+        } else if (kind == EL_RECORD_THIN) {
+            record->at.row = (int16_t)rows.first;
+        } else {
+            fill_perspective(record, v[0], v[1], v[2]);
+        }
         next += record_bytes;
 #if EL_WITH_WORKERS
         if (shared) {
@@ -107,6 +122,16 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
     return index;
 }
 
+static EL_APART uint32_t list_direct(el_drawing *d, uint32_t index, uint32_t end)
+{
+    return list_in_view(d, index, end, DIRECT, false);
+}
+
+static EL_APART uint32_t list_stretched(el_drawing *d, uint32_t index, uint32_t end)
+{
+    return list_in_view(d, index, end, STRETCHED, false);
+}
+
 /* How many of the next triangles, a few at least, ask for one vertex after the other; 0: fewer. In pairs, which are three
  * words where they are aligned. */
 static uint32_t stretch_length(const el_drawing *d, uint32_t index, uint32_t end)
@@ -114,8 +139,8 @@ static uint32_t stretch_length(const el_drawing *d, uint32_t index, uint32_t end
     const uint16_t *const triangle = d->mesh->triangles[index];
     const uint32_t vertex = triangle[0];
     const uint32_t most = el_min_u32(el_min_u32(end - index, (d->slot_mask + 1U) / 3U), STRETCH);
-    if (triangle[1] != vertex + 1U || triangle[5] != vertex + 5U || vertex + 3U * most > d->mesh->vertex_count ||
-        ((uintptr_t)triangle & 3U) != 0) {
+    if (most < LEAST_STRETCH || triangle[1] != vertex + 1U || triangle[5] != vertex + 5U ||
+        vertex + 3U * most > d->mesh->vertex_count || ((uintptr_t)triangle & 3U) != 0) {
         return 0;
     }
     typedef uint32_t __attribute__((may_alias)) pair_of_u16;
@@ -148,7 +173,7 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
         }
         if (index < d->stretch_end) {
             stop = el_min_u32(end, d->stretch_end);
-            index = list_in_view(d, index, stop, STRETCHED, false);
+            index = list_stretched(d, index, stop);
         } else {
             el_vertices_clear_overlaid(d);
             stop = el_min_u32(end, index + CHUNK - index % 2U);
@@ -166,7 +191,7 @@ uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end)
     if (EL_WITH_WORKERS && d->list->is_shared) {
         return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, true);
     }
-    return d->direct ? list_in_view(d, index, end, DIRECT, false) : list_cached(d, index, end);
+    return d->direct ? list_direct(d, index, end) : list_cached(d, index, end);
 }
 
 #endif

@@ -71,10 +71,6 @@ void el_vertices_begin_cache(el_drawing *d)
     d->slot_mask = (1U << (el_bit_length_u32(most) - 1)) - 1U;
     d->cached = (uint16_t *)(void *)(d->vertices + d->slot_mask + 1U);
     d->next_vertex = NO_VERTEX;
-#if EL_CULLS_IN_VIEW
-    d->stretch_end = 0;
-    d->overlaid = 0;
-#endif
     memset(d->cached, 0xFF, (d->slot_mask + 1U) * sizeof d->cached[0]);
 }
 
@@ -101,6 +97,10 @@ void el_vertices_place(el_drawing *d)
     list->end = renderer->list_bytes - beside;
     d->vertices = (el_screen_vertex *)(void *)(list_end + depth_bytes - bytes);
     d->vertex_bytes = bytes;
+#if EL_CULLS_IN_VIEW
+    d->stretch_end = 0;
+    d->overlaid = 0;
+#endif
     if (d->direct) {
         d->slot_mask = UINT16_MAX;
         if (d->by_clusters) {
