@@ -45,14 +45,8 @@ typedef struct el_cull_rows {
 
 static inline el_verdict el_cull_by_rows(const el_culling *culling, el_cull_rows *rows)
 {
-    rows->begin = rows->first;
-    if (rows->first < culling->row_begin) {
-        rows->begin = culling->row_begin;
-        if (rows->end <= culling->row_begin) {
-            return EL_VERDICT_OTHER;
-        }
-    }
-    return rows->begin < culling->row_end ? EL_VERDICT_SEEN : EL_VERDICT_OTHER;
+    rows->begin = el_max_i32(rows->first, culling->row_begin);
+    return rows->end <= culling->row_begin || rows->begin >= culling->row_end ? EL_VERDICT_OTHER : EL_VERDICT_SEEN;
 }
 
 static inline el_verdict el_cull(const el_culling *culling, const el_screen_vertex *const v[3], el_cull_rows *rows)
@@ -80,6 +74,16 @@ static inline el_verdict el_cull(const el_culling *culling, const el_screen_vert
 }
 
 #if EL_CULLS_IN_VIEW
+/* The same, for triangles that nearly all begin in the pass. */
+static inline el_verdict el_cull_begun(const el_culling *culling, el_cull_rows *rows)
+{
+    if (rows->first >= culling->row_begin && rows->first < culling->row_end) {
+        rows->begin = rows->first;
+        return EL_VERDICT_SEEN;
+    }
+    return el_cull_by_rows(culling, rows);
+}
+
 #if defined(__ARM_FEATURE_SIMD32) && defined(__ARM_FEATURE_UNALIGNED)
 #include <arm_acle.h>
 
@@ -123,7 +127,7 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
     }
     rows->first = (int32_t)(least >> (16 + EL_SUBPIXEL_BITS));
     rows->end = (int32_t)(most >> (16 + EL_SUBPIXEL_BITS));
-    return el_cull_by_rows(culling, rows);
+    return el_cull_begun(culling, rows);
 }
 #else
 /* The same for a triangle whose corners are all in the view: 0 <= x, y <= EL_SUBPIXELS * 2040 < 2^15. Thumb's first set
@@ -167,7 +171,7 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
                                              el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0))) {
         return EL_VERDICT_EMPTY;
     }
-    return el_cull_by_rows(culling, rows);
+    return el_cull_begun(culling, rows);
 }
 #endif
 #endif

@@ -71,13 +71,11 @@ static EL_SPECIALISED void el_fill_record(el_record *record, uint16_t index, con
                                           el_record_kind kind, int32_t first_row)
 {
     record->index = index;
-    if (kind == EL_RECORD_PLAIN) {
-        el_fill_points(record, v);
-    } else if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
+    if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
         record->at.row = (int16_t)first_row;
-    } else {
-        el_fill_points(record, v);
+        return;
     }
+    el_fill_points(record, v);
     if (EL_WITH_TEXTURE && kind >= EL_RECORD_PERSPECTIVE) {
         el_record_perspective *const perspective = (el_record_perspective *)(void *)record;
         perspective->w[0] = v[0]->w;
