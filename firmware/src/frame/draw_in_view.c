@@ -13,6 +13,9 @@ enum {
     CHUNK = 32         /* triangles, after which another stretch is looked for */
 };
 
+/* From here on a pointer is one number. Compilers would keep what it was made of, too, for which there are no registers. */
+#define EL_FORGET(pointer) __asm__("" : "+r"(pointer))
+
 /* Where a triangle's vertices are. */
 typedef enum source {
     DIRECT,   /* all are at their places */
@@ -74,6 +77,9 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
             v[0] = vertices + ((*triangle)[0] & slot_mask);
             v[1] = vertices + ((*triangle)[1] & slot_mask);
             v[2] = vertices + ((*triangle)[2] & slot_mask);
+            for (unsigned i = 0; i < 3; i++) {
+                EL_FORGET(v[i]);
+            }
         }
         if ((v[0]->code | v[1]->code | v[2]->code) != 0) {
             if ((v[0]->code & v[1]->code & v[2]->code & EL_CODE_OUTSIDE) == 0) {
@@ -157,22 +163,69 @@ static uint32_t stretch_length(const el_drawing *d, uint32_t index, uint32_t end
     return length >= LEAST_STRETCH ? length : 0U;
 }
 
+/* Looks for triangles without shared vertices from number `index` on; whether it looks at them before their vertices
+ * depends on how many of the last ones were outside. */
+static void begin_unshared(el_drawing *d, uint32_t index, uint32_t end)
+{
+    const uint32_t outside = d->verdicts[EL_VERDICT_OUTSIDE];
+    const uint32_t before = d->unshared_end - d->unshared_begin;
+    d->looks_beside = before != 0 && (outside - d->outside_before) * 4U >= before;
+    d->outside_before = outside;
+    d->unshared_begin = index;
+    d->unshared_end = index + stretch_length(d, index, end);
+    if (d->looks_beside && !d->has_sides) {
+        el_sides_make(d->sides, &d->state->transform, d->mesh);
+        d->has_sides = true;
+    }
+}
+
+/* Transforms the vertices of the next triangles without shared vertices that are not found to be beside the view. Returns
+ * the number of the first of them, or d->unshared_end. */
+static uint32_t begin_stretch(el_drawing *d, uint32_t index)
+{
+    uint32_t stop = d->unshared_end;
+    if (d->looks_beside) {
+        const int16_t(*corners)[3] = &d->mesh->positions[d->mesh->triangles[index][0]];
+        const int16_t(*const first)[3] = corners;
+        while (index < stop && el_sides_are_passed(d->sides, corners)) {
+            index++;
+            corners += 3;
+        }
+        d->verdicts[EL_VERDICT_OUTSIDE] += (uint32_t)(corners - first) / 3U;
+        stop = index;
+        while (stop < d->unshared_end && (stop == index || !el_sides_are_passed(d->sides, corners))) {
+            stop++;
+            corners += 3;
+        }
+    }
+    d->stretch_begin = index;
+    d->stretch_end = stop;
+    if (index < stop) {
+        const uint32_t count = 3U * (stop - index);
+        d->overlaid = d->overlaid > count ? d->overlaid : count;
+        el_vertices_transform(d, d->mesh->triangles[index][0], count, d->vertices);
+    }
+    return index;
+}
+
 /* Triangles whose vertices wait in the cache or are to be put there. Meshes without shared vertices need no look at it. */
 static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
 {
     while (index < end) {
         uint32_t stop;
         if (index >= d->stretch_end) {
-            const uint32_t length = stretch_length(d, index, end);
-            if (length != 0) {
-                d->stretch_begin = index;
-                d->stretch_end = index + length;
-                d->overlaid = d->overlaid > 3U * length ? d->overlaid : 3U * length;
-                el_vertices_transform(d, d->mesh->triangles[index][0], 3U * length, d->vertices);
+            if (index >= d->unshared_end) {
+                begin_unshared(d, index, end);
+            }
+            if (index < d->unshared_end) {
+                index = begin_stretch(d, index);
+                if (index == d->unshared_end) {
+                    continue;
+                }
             }
         }
         if (index < d->stretch_end) {
-            stop = el_min_u32(end, d->stretch_end);
+            stop = d->stretch_end;
             index = list_stretched(d, index, stop);
         } else {
             el_vertices_clear_overlaid(d);

@@ -8,6 +8,7 @@
 
 #include "frame/cull.h"
 #include "frame/renderer.h"
+#include "geometry/sides.h"
 
 /* The mesh's vertices on the screen, at the end of the list's memory. `direct`: all of them, each transformed once
  * before the triangles are looked at. Otherwise a direct-mapped cache, for meshes that do not fit: a vertex is
@@ -30,10 +31,15 @@ typedef struct el_drawing {
     uint16_t *cached;      /* indices of the vertices in the cache's slots */
     el_culling culling;
 #if EL_CULLS_IN_VIEW
-    /* Triangles [begin, end) ask for vertices that no other one asks for: these lie at d->vertices in their order, and so
-     * over some slots of the cache. */
+    /* Triangles [begin, end) ask for vertices that no other one asks for: those of the stretch lie at d->vertices in their
+     * order, and so over some slots of the cache. */
+    uint32_t unshared_begin, unshared_end;
     uint32_t stretch_begin, stretch_end;
-    uint32_t overlaid; /* slots whose vertices are not what `cached` says */
+    uint32_t overlaid;       /* slots whose vertices are not what `cached` says */
+    uint32_t outside_before; /* verdicts when unshared_begin was set */
+    bool looks_beside;       /* at the sides, before vertices are transformed */
+    bool has_sides;
+    el_side sides[EL_SIDES];
 #endif
     uint32_t transformed;           /* vertices so far */
     uint32_t verdicts[EL_VERDICTS]; /* how many triangles had each */

@@ -82,6 +82,19 @@ static void leave_vertices(const el_drawing *d)
     }
 }
 
+/* A vertex that one triangle alone asks for is better made when that is looked at. */
+static bool shares_nothing(const el_drawing *d)
+{
+    enum { LEAST = 16 }; /* triangles for which emptying a cache is worth it */
+#if EL_CULLS_IN_VIEW
+    return d->mesh->triangle_count >= LEAST && d->mesh->vertex_count >= 3U * d->mesh->triangle_count &&
+           !d->list->is_shared;
+#else
+    (void)d;
+    return false;
+#endif
+}
+
 void el_vertices_place(el_drawing *d)
 {
     el_renderer *const renderer = d->renderer;
@@ -90,7 +103,7 @@ void el_vertices_place(el_drawing *d)
     const uint32_t depth_bytes = renderer->painter.band_is_open ? 0U : renderer->depth_bytes;
     const uint32_t free_bytes = renderer->list_bytes - list->used;
     const uint32_t direct_bytes = d->mesh->vertex_count * (uint32_t)sizeof(el_screen_vertex);
-    d->direct = direct_bytes <= depth_bytes + free_bytes / 4;
+    d->direct = direct_bytes <= depth_bytes + free_bytes / 4 && !shares_nothing(d);
     const uint32_t bytes = d->direct ? EL_ROUND_UP_8(direct_bytes)
                                      : (uint32_t)el_max_i32((int32_t)depth_bytes, (int32_t)(free_bytes / 8)) / 8 * 8;
     const uint32_t beside = bytes > depth_bytes ? bytes - depth_bytes : 0U;
@@ -98,6 +111,8 @@ void el_vertices_place(el_drawing *d)
     d->vertices = (el_screen_vertex *)(void *)(list_end + depth_bytes - bytes);
     d->vertex_bytes = bytes;
 #if EL_CULLS_IN_VIEW
+    d->unshared_begin = 0;
+    d->unshared_end = 0;
     d->stretch_end = 0;
     d->overlaid = 0;
 #endif

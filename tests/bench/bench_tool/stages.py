@@ -41,6 +41,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/geometry/clip.c", "*", "clip"),
     ("firmware/src/geometry/cull.c", "*", "bin"),
     ("firmware/src/geometry/cluster.c", "*", "bin"),
+    ("firmware/src/geometry/sides.c", "*", "bin"),
     ("firmware/src/frame/draw.c", "clip_triangle", "clip"),
     ("firmware/src/frame/draw.c", "seen_from_back", "clip"),
     ("firmware/src/frame/draw.c", "fan_root", "clip"),
