@@ -7,6 +7,7 @@ enum {
     LENGTHS = 14,
     STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
     NEVER_Q8 = 1 << 20,
+    J_MARGIN_FROM = 1 << 10,
     /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 3 * 2^-16 texel and steps are cut off
      * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
     ROUNDING_RESERVE_Q8 = 24
@@ -118,7 +119,7 @@ static EACH_PIECE void find_knot(el_texture_axis *axis, const el_texture_walk *w
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
  * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the gradients' fraction moves J by less
  * than W + |U| <= 2 W, cutting off that of U and W by less than |U'| + |W'|. */
-static int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+static EL_SELDOM int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
 {
     const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
     const int32_t step_q4 = (int32_t)((int64_t)axis->dx >> 28);
@@ -127,6 +128,36 @@ static int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
     const uint64_t bound_q4 = el_abs_u64(j_q4) + cut_off_q4;
     return log2_ceil_q8(bound_q4, &axis->curvature_shift) + (30 - (int32_t)axis->down) * 256;
 }
+
+#if EL_SMALL_CODE
+static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+{
+    return curvature_q8(axis, w, w_step_q4);
+}
+#else
+/* The same. Products to 2^32 tell J to 3 * 2^32, and what is cut off is 2 * 2^32 at most: with `most` the nearest multiple of
+ * 2^32, the number whose logarithm is asked for lies between most - 3 and most + 5 of them. Mostly both have the same leading
+ * bits, and what a logarithm looks at is known. */
+static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+{
+    const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
+    const int32_t step_q4 = (int32_t)((int64_t)axis->dx >> 28);
+    /* Gradients are below 2^31 and values below 2^31: each product is below 2^30. */
+    const int32_t j = el_product_near_i32(step_q4, w) - el_product_near_i32(value, w_step_q4);
+    const uint32_t magnitude = (uint32_t)(j < 0 ? -j : j);
+    if (magnitude < J_MARGIN_FROM) {
+        return curvature_q8(axis, w, w_step_q4);
+    }
+    const uint32_t least = magnitude - 3U;
+    const unsigned leading = leading_zeros(least, axis->curvature_shift);
+    const uint32_t normalised = least << leading;
+    if (((normalised ^ (normalised + (8U << leading))) >> 24) != 0) {
+        return curvature_q8(axis, w, w_step_q4);
+    }
+    axis->curvature_shift = leading;
+    return (63 - (int32_t)leading + 30 - (int32_t)axis->down) * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+}
+#endif
 
 static bool is_steep(const el_plane *plane)
 {
@@ -169,7 +200,7 @@ static void find_limit(el_texture_walk *walk)
 {
     const int32_t w = (int32_t)(uint32_t)(walk->w >> 32);
     const int32_t w_step_q4 = (int32_t)((int64_t)walk->w_dx >> 28);
-    const int32_t curvature = el_max_i32(curvature_q8(&walk->u, w, w_step_q4), curvature_q8(&walk->v, w, w_step_q4));
+    const int32_t curvature = el_max_i32(find_curvature_q8(&walk->u, w, w_step_q4), find_curvature_q8(&walk->v, w, w_step_q4));
     const int32_t three = curvature + walk->without_j_q8;
     /* A third, rounded up: the constant keeps the dividend positive, 26,138 is the most and -6,374 the least that it can
      * be without, and for less than 2^16 the product is the quotient. */
