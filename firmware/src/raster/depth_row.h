@@ -18,7 +18,7 @@ typedef struct el_depth_row {
     uint64_t z, step;    /* Q32, z with its half added, at the next pixel */
     uint16_t *next;      /* the next pixel's depth so far */
     const uint16_t *end; /* after the last pixel's */
-    bool never_far;      /* no pixel's z is EL_DEPTH_EMPTY, so in front of nothing each is seen */
+    uint32_t farther;    /* no pixel of the next eight is by more beyond the first of them */
 } el_depth_row;
 
 /* A span of `count` pixels from `depth` on, count >= 1. */

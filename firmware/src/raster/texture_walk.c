@@ -200,7 +200,8 @@ static void find_limit(el_texture_walk *walk)
 {
     const int32_t w = (int32_t)(uint32_t)(walk->w >> 32);
     const int32_t w_step_q4 = (int32_t)((int64_t)walk->w_dx >> 28);
-    const int32_t curvature = el_max_i32(find_curvature_q8(&walk->u, w, w_step_q4), find_curvature_q8(&walk->v, w, w_step_q4));
+    const int32_t curvature =
+        el_max_i32(find_curvature_q8(&walk->u, w, w_step_q4), find_curvature_q8(&walk->v, w, w_step_q4));
     const int32_t three = curvature + walk->without_j_q8;
     /* A third, rounded up: the constant keeps the dividend positive, 26,138 is the most and -6,374 the least that it can
      * be without, and for less than 2^16 the product is the quotient. */
