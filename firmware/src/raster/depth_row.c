@@ -3,6 +3,14 @@
 #include "base/fill.h"
 #include "base/fixed.h"
 
+/* Of several steps along a row compilers make products and sums, for which there are no registers. What they know nothing of
+ * stays a step. */
+#if defined(__thumb__) || defined(__riscv)
+#define KEEP_STEP(x) __asm__("" : "+r"(x))
+#else
+#define KEEP_STEP(x) ((void)0)
+#endif
+
 /* Pixels of which it is asked at once whether all are nearer. */
 enum { BLOCK = 8 };
 
@@ -28,12 +36,11 @@ static EL_SPECIALISED bool is_beyond(const uint16_t *block, uint32_t far)
 }
 
 #if !defined(__ARM_ARCH_6M__)
-/* z + step, hidden from the compiler: of several steps it would make products and sums, for which there are no registers. */
 static EL_SPECIALISED uint64_t stepped(uint64_t z, uint64_t step)
 {
     const uint64_t next = z + step;
     uint32_t upper = (uint32_t)(next >> 32);
-    __asm__("" : "+r"(upper));
+    KEEP_STEP(upper);
     return (uint64_t)upper << 32 | (uint32_t)next;
 }
 #endif
@@ -47,7 +54,7 @@ static EL_SPECIALISED uint64_t write_block(uint16_t *block, uint64_t z, uint64_t
     for (unsigned i = 0; i < BLOCK; i++) {
         block[i] = (uint16_t)(z >> 32);
         z += step;
-        __asm__("" : "+r"(z));
+        KEEP_STEP(z);
     }
 #else
     el_word *const words = (el_word *)(void *)block;

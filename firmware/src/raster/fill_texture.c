@@ -47,13 +47,9 @@ typedef struct brush {
     uint32_t y;
 } brush;
 
-/* Draws `count` pixels of the walk's piece, after those that are `skipped`; the first of them is at column x. */
-typedef void draw_pixels(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count);
-
-static bool can_pack(const brush *b, unsigned kind)
+static bool can_pack(const brush *b)
 {
-    return (kind & EL_FILL_COLOURS) == 0 &&
-           (uint32_t)b->walk.v.step_q16 + b->packing.v_step_most < 2U * b->packing.v_step_most;
+    return (uint32_t)b->walk.v.step_q16 + b->packing.v_step_most < 2U * b->packing.v_step_most;
 }
 
 /* A call per piece costs a tenth of the piece where registers are many; on Armv6-M less than what must be moved away. */
@@ -63,7 +59,7 @@ static bool can_pack(const brush *b, unsigned kind)
 #define EACH_PIECE EL_SPECIALISED
 #endif
 
-/* Of nothing but texels, where they can be packed. */
+/* Draws `count` pixels of the walk's piece, after those that are `skipped`, where they can be packed. */
 static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
 {
     const packing p = b->packing;
@@ -89,53 +85,83 @@ static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t sk
     } while (colour != end);
 }
 
-/* Of any texture and step, with light or without. */
-static EL_SPECIALISED void draw_any(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count,
-                                    unsigned kind)
+/* The same of any texture and step. */
+static __attribute__((noinline)) void draw_any(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
 {
     const el_texel_source source = b->source;
-    const el_values step = b->slopes.per_column;
     const uint32_t u_step_q16 = (uint32_t)b->walk.u.step_q16;
     const uint32_t v_step_q16 = (uint32_t)b->walk.v.step_q16;
-    const uint32_t y = b->y;
     uint32_t u_q16 = (uint32_t)b->walk.u.q16 + u_step_q16 * skipped;
     uint32_t v_q16 = (uint32_t)b->walk.v.q16 + v_step_q16 * skipped;
-    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
-    for (const uint32_t x_end = x + count; x < x_end; x++) {
-        const uint32_t texel = el_texel_at(&source, u_q16, v_q16);
-        *colour++ = (kind & EL_FILL_COLOURS) != 0 ? el_modulate(texel, &light, el_dither_threshold_q16(x, y), kind)
-                                                  : (uint16_t)texel;
-        el_values_add(&light, &step, kind);
+    const uint16_t *const end = colour + count;
+    do {
+        *colour++ = (uint16_t)el_texel_at(&source, u_q16, v_q16);
         u_q16 += u_step_q16;
         v_q16 += v_step_q16;
-    }
+    } while (colour != end);
 }
 
-static EL_SPECIALISED void draw_part(const brush *b, uint16_t *row, uint32_t x, uint32_t skipped, uint32_t count,
-                                     unsigned kind, draw_pixels *draw)
+static EL_SPECIALISED void draw_part(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
 {
-    if (can_pack(b, kind)) {
-        draw_packed(b, row + x, skipped, count);
+    if (can_pack(b)) {
+        draw_packed(b, colour, skipped, count);
     } else {
-        draw(b, row + x, x, skipped, count);
+        draw_any(b, colour, skipped, count);
     }
 }
 
 /* The last pixel of a span, where its last knot is. */
-static EL_SPECIALISED void draw_last(brush *b, uint16_t *row, uint32_t x, unsigned kind, draw_pixels *draw)
+static EL_SPECIALISED void draw_last(brush *b, uint16_t *colour)
 {
     el_texture_walk_last(&b->walk);
-    if ((kind & EL_FILL_COLOURS) == 0) {
-        row[x] = (uint16_t)el_texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
-    } else {
-        draw(b, row + x, x, 0, 1);
+    *colour = (uint16_t)el_texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
+}
+
+/* Lights the texels of pixels [x, x_end), one at least. They were drawn before, so that neither loop has to keep what the
+ * other needs: together they have more than any core has registers, and pieces are shorter than what light goes along. */
+static EL_SPECIALISED void light_any(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
+{
+    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
+    const el_values step = b->slopes.per_column;
+    el_dither_row thresholds = el_dither_row_at(x, b->y);
+    uint16_t *pixel = row + x;
+    const uint16_t *const end = row + x_end;
+    if ((step.red | step.green | step.blue) == 0) {
+        /* A surface in one colour, or one that faces the light everywhere alike. */
+        do {
+            *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        } while (++pixel != end);
+        return;
+    }
+    do {
+        *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        el_values_add(&light, &step, kind);
+    } while (++pixel != end);
+}
+
+static __attribute__((noinline)) void light_plain(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
+{
+    light_any(b, row, x, x_end, EL_FILL_COLOURS);
+}
+
+static __attribute__((noinline)) void light_dithered(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
+{
+    light_any(b, row, x, x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
+}
+
+static EL_SPECIALISED void light(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
+{
+    if ((kind & EL_FILL_DITHER) != 0) {
+        light_dithered(b, row, x, x_end);
+    } else if ((kind & EL_FILL_COLOURS) != 0) {
+        light_plain(b, row, x, x_end);
     }
 }
 
 /* A span of which the first `seen` pixels are seen, and then what `depth` says, in pieces along which texture coordinates
  * are linear: the same pieces as if all were seen, up to the last pixel that is. */
 static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
-                                     uint32_t seen, el_depth_row *depth, unsigned kind, draw_pixels *draw)
+                                     uint32_t seen, el_depth_row *depth, unsigned kind)
 {
     /* A run of pixels that are seen; none is left of it. */
     uint32_t run = x;
@@ -147,6 +173,7 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
         }
         run_end = run + el_depth_row_take(depth);
     }
+    uint32_t run_begin = run;
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
@@ -154,53 +181,56 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
         const uint32_t piece_end = x + el_texture_walk_piece(&b->walk, at, last - x);
         while (run < piece_end) {
             const uint32_t end = run_end < piece_end ? run_end : piece_end;
-            draw_part(b, row, run, run - x, end - run, kind, draw);
+            draw_part(b, row + run, run - x, end - run);
             run = end;
             if (run == run_end && run < x_end) {
+                light(b, row, run_begin, run, kind);
                 run += el_depth_row_skip(depth);
                 run_end = run + el_depth_row_take(depth);
+                run_begin = run;
             }
         }
         at += piece_end - x;
         x = piece_end;
     }
     if (run < x_end) {
-        draw_last(b, row, last, kind, draw);
+        draw_last(b, row + last);
+        light(b, row, run_begin, x_end, kind);
     }
 }
 
 /* A span all of which is seen. */
 static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
-                                    unsigned kind, draw_pixels *draw)
+                                    unsigned kind)
 {
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
     while (x < last) {
         const uint32_t length = el_texture_walk_piece(&b->walk, at, last - x);
-        draw_part(b, row, x, 0, length, kind, draw);
+        draw_part(b, row + x, 0, length);
         x += length;
         at += length;
     }
-    draw_last(b, row, last, kind, draw);
+    draw_last(b, row + last);
+    light(b, row, x_end - 1U - at, x_end, kind);
 }
 
 static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, uint16_t *row, uint16_t *depth_row,
-                                       uint32_t x, uint32_t x_end, unsigned kind, draw_pixels *draw)
+                                       uint32_t x, uint32_t x_end, unsigned kind)
 {
     el_depth_row depth;
     el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                        b->slopes.per_column.z);
     const uint32_t seen = el_depth_row_take(&depth);
     if (seen == x_end - x) {
-        draw_all(b, planes, row, x, x_end, kind, draw);
+        draw_all(b, planes, row, x, x_end, kind);
     } else {
-        draw_seen(b, planes, row, x, x_end, seen, &depth, kind, draw);
+        draw_seen(b, planes, row, x, x_end, seen, &depth, kind);
     }
 }
 
-static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind,
-                                   draw_pixels *draw)
+static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     brush b;
     b.source = el_texel_source_of(triangle->surface.texture);
@@ -219,9 +249,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
         if (x >= x_end) {
             el_count_empty(stats);
         } else if ((kind & EL_FILL_DEPTH) != 0) {
-            draw_tested(&b, planes, row, cursor.row, x, x_end, kind, draw);
+            draw_tested(&b, planes, row, cursor.row, x, x_end, kind);
         } else {
-            draw_all(&b, planes, row, x, x_end, kind, draw);
+            draw_all(&b, planes, row, x, x_end, kind);
         }
         el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
         el_perspective_next_row(&triangle->perspective);
@@ -232,34 +262,24 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
     return rows;
 }
 
-/* A function of its own for the pixels of each kind, and for each kind with and without depth. */
-#define DRAW(name, kind)                                                                                               \
-    static __attribute__((noinline)) void draw_##name(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped,  \
-                                                      uint32_t count)                                                  \
-    {                                                                                                                  \
-        draw_any(b, colour, x, skipped, count, (kind));                                                                \
-    }
-DRAW(texels, EL_FILL_TEXTURE)
-DRAW(lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)
-DRAW(dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)
-
+/* A function of its own for each kind, and for each with and without depth. */
 #define FILLS(DO)                                                                                                      \
-    DO(textured, texels, EL_FILL_TEXTURE)                                                                              \
-    DO(textured_depth, texels, EL_FILL_TEXTURE | EL_FILL_DEPTH)                                                        \
-    DO(lit, lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)                                                                    \
-    DO(lit_depth, lit, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DEPTH)                                              \
-    DO(lit_dithered, dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)                                     \
-    DO(lit_dithered_depth, dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
+    DO(textured, EL_FILL_TEXTURE)                                                                                      \
+    DO(textured_depth, EL_FILL_TEXTURE | EL_FILL_DEPTH)                                                                \
+    DO(lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)                                                                         \
+    DO(lit_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DEPTH)                                                   \
+    DO(lit_dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)                                               \
+    DO(lit_dithered_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
 
-#define DEFINE(name, pixels, kind)                                                                                     \
+#define DEFINE(name, kind)                                                                                             \
     static __attribute__((noinline))                                                                                   \
     int32_t fill_##name(el_triangle *triangle, const el_target *target, el_stats *stats)                               \
     {                                                                                                                  \
-        return fill(triangle, target, stats, (kind), draw_##pixels);                                                   \
+        return fill(triangle, target, stats, (kind));                                                                  \
     }
 FILLS(DEFINE)
 
-#define CALL(name, pixels, kind)                                                                                       \
+#define CALL(name, kind)                                                                                               \
     if (asked == (kind)) {                                                                                             \
         return fill_##name(triangle, target, stats);                                                                   \
     }
