@@ -59,8 +59,8 @@ static bool can_pack(const brush *b)
 #define EACH_PIECE EL_SPECIALISED
 #endif
 
-/* Draws `count` pixels of the walk's piece, after those that are `skipped`, where they can be packed. */
-static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
+/* Draws the first `count` pixels of the walk's piece, where they can be packed. */
+static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t count)
 {
     const packing p = b->packing;
     const el_texture_axis *const u = &b->walk.u;
@@ -71,9 +71,6 @@ static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t sk
     const uint32_t upper_step = ((uint32_t)u->step_q16 << p.u_up) + (uint32_t)(v->step_q16 >> 16);
     const uint64_t step = (uint64_t)upper_step << 32 | (uint32_t)v->step_q16 << 16;
     uint64_t at = (uint64_t)upper << 32 | v_q16 << 16;
-    if (skipped != 0) {
-        at += el_multiply_u16(step, skipped);
-    }
     const uint16_t *const end = colour + count;
     /* By twos: a piece has a dozen pixels, and what a longer loop needs to begin costs more than it saves. */
 #pragma GCC unroll 2
@@ -86,13 +83,13 @@ static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t sk
 }
 
 /* The same of any texture and step. */
-static __attribute__((noinline)) void draw_any(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
+static __attribute__((noinline)) void draw_any(const brush *b, uint16_t *colour, uint32_t count)
 {
     const el_texel_source source = b->source;
     const uint32_t u_step_q16 = (uint32_t)b->walk.u.step_q16;
     const uint32_t v_step_q16 = (uint32_t)b->walk.v.step_q16;
-    uint32_t u_q16 = (uint32_t)b->walk.u.q16 + u_step_q16 * skipped;
-    uint32_t v_q16 = (uint32_t)b->walk.v.q16 + v_step_q16 * skipped;
+    uint32_t u_q16 = (uint32_t)b->walk.u.q16;
+    uint32_t v_q16 = (uint32_t)b->walk.v.q16;
     const uint16_t *const end = colour + count;
     do {
         *colour++ = (uint16_t)el_texel_at(&source, u_q16, v_q16);
@@ -101,12 +98,12 @@ static __attribute__((noinline)) void draw_any(const brush *b, uint16_t *colour,
     } while (colour != end);
 }
 
-static EL_SPECIALISED void draw_part(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
+static EL_SPECIALISED void draw_part(const brush *b, uint16_t *colour, uint32_t count)
 {
     if (can_pack(b)) {
-        draw_packed(b, colour, skipped, count);
+        draw_packed(b, colour, count);
     } else {
-        draw_any(b, colour, skipped, count);
+        draw_any(b, colour, count);
     }
 }
 
@@ -179,9 +176,12 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
     while (x < last && run < x_end) {
         const uint32_t piece_end = x + el_texture_walk_piece(&b->walk, at, last - x);
+        uint32_t begun = x;
         while (run < piece_end) {
             const uint32_t end = run_end < piece_end ? run_end : piece_end;
-            draw_part(b, row + run, run - x, end - run);
+            el_texture_walk_skip(&b->walk, run - begun);
+            draw_part(b, row + run, end - run);
+            begun = run;
             run = end;
             if (run == run_end && run < x_end) {
                 light(b, row, run_begin, run, kind);
@@ -206,9 +206,14 @@ static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
+    uint32_t length = x < last && el_texture_walk_is_at_knots(&b->walk) ? 1U : 0U;
     while (x < last) {
-        const uint32_t length = el_texture_walk_piece(&b->walk, at, last - x);
-        draw_part(b, row + x, 0, length);
+        if (length == 1 && el_texture_walk_is_at_knots(&b->walk)) {
+            length = el_texture_walk_knots(&b->walk, &b->source, row + x, at, last - x);
+        } else {
+            length = el_texture_walk_piece(&b->walk, at, last - x);
+            draw_part(b, row + x, length);
+        }
         x += length;
         at += length;
     }

@@ -2,6 +2,7 @@
 
 #include "base/divide.h"
 #include "base/fixed.h"
+#include "raster/texel.h"
 
 enum {
     LENGTHS = 14,
@@ -86,15 +87,20 @@ static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> down));
 }
 
-/* W's logarithm and reciprocal so many pixels from the span's first. */
-static EACH_PIECE void find_w(el_texture_walk *walk, uint32_t pixels)
+/* The logarithm and reciprocal of this W, of some pixel. */
+static inline void find_of_w(el_texture_walk *walk, uint64_t w)
 {
-    const uint64_t w = walk->w + el_multiply_u16(walk->w_dx, pixels);
     const unsigned shift = leading_zeros((uint32_t)(w >> 32), walk->w_shift);
     const uint32_t normalised = upper_word(w, shift);
     walk->w_shift = shift;
     walk->w_log2_q8 = log2_of_normalised_q8(normalised, shift);
     walk->reciprocal = el_reciprocal_near(normalised);
+}
+
+/* The same so many pixels from the span's first. */
+static EACH_PIECE void find_w(el_texture_walk *walk, uint32_t pixels)
+{
+    find_of_w(walk, walk->w + el_multiply_u16(walk->w_dx, pixels));
 }
 
 static inline void find_first_knot(el_texture_axis *axis, unsigned w_shift, uint32_t reciprocal)
@@ -231,7 +237,8 @@ static void set_length(el_texture_walk *walk, uint32_t i)
     walk->more_q8 = INT32_MAX;
     walk->enough_q8 = INT32_MIN;
     if ((int64_t)walk->w_dx < 0) {
-        walk->enough_q8 = walk->limit_q8 + length_q8[i];
+        /* Where it was not enough for more than a pixel, it never is again. */
+        walk->enough_q8 = i > 0 ? walk->limit_q8 + length_q8[i] : INT32_MIN;
     } else if (i + 1U < LENGTHS) {
         walk->more_q8 = walk->limit_q8 + length_q8[i + 1U];
     }
@@ -249,15 +256,21 @@ static inline void find_first_length(el_texture_walk *walk)
         i--;
     }
     walk->first_length = i;
-    set_length(walk, (int64_t)walk->w_dx < 0 && i == 0 ? 1 : i);
+    set_length(walk, i);
 }
 #endif
 
+/* A plane in column x of its row. */
+static EACH_PIECE uint64_t plane_at(const el_plane *plane, uint32_t x)
+{
+    return plane->value + el_multiply_u16(plane->dx, x);
+}
+
 void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, uint32_t x, uint32_t pixels)
 {
-    walk->w = planes->w.value + el_multiply_u16(walk->w_dx, x) + EL_W_MARGIN_Q32;
-    walk->u.value = planes->u.value + el_multiply_u16(walk->u.dx, x);
-    walk->v.value = planes->v.value + el_multiply_u16(walk->v.dx, x);
+    walk->w = plane_at(&planes->w, x) + EL_W_MARGIN_Q32;
+    walk->u.value = plane_at(&planes->u, x);
+    walk->v.value = plane_at(&planes->v, x);
     find_w(walk, 0);
     find_first_knot(&walk->u, walk->w_shift, walk->reciprocal);
     find_first_knot(&walk->v, walk->w_shift, walk->reciprocal);
@@ -336,7 +349,7 @@ static __attribute__((noinline)) uint32_t shorten(el_texture_walk *walk, uint32_
         length = lengths[i] < most ? lengths[i] : most;
         find_w(walk, at + length);
     } while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]);
-    set_length(walk, i > 0 ? i : 1);
+    set_length(walk, i);
     return length;
 }
 
@@ -362,3 +375,55 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
     find_knot(&walk->v, walk, at + length, step_reciprocal);
     return length;
 }
+
+#if !EL_SMALL_CODE
+/* U or V from pixel to pixel. */
+typedef struct steps {
+    uint64_t value, dx;
+    unsigned down;
+    int32_t base_q16;
+} steps;
+
+static inline steps steps_of(const el_texture_axis *axis, uint32_t at)
+{
+    return (steps){
+        .value = axis->value + el_multiply_u16(axis->dx, at),
+        .dx = axis->dx,
+        .down = axis->down,
+        .base_q16 = axis->base_q16,
+    };
+}
+
+static inline int32_t next_knot(steps *s, const el_texture_walk *walk)
+{
+    s->value += s->dx;
+    return knot(s->value, walk->w_shift, walk->reciprocal, s->down, s->base_q16);
+}
+
+uint32_t el_texture_walk_knots(el_texture_walk *walk, const el_texel_source *source, uint16_t *colour, uint32_t at,
+                               uint32_t most)
+{
+    el_texture_walk here = *walk;
+    const el_texel_source from = *source;
+    steps u = steps_of(&walk->u, at);
+    steps v = steps_of(&walk->v, at);
+    uint64_t w = walk->w + el_multiply_u16(walk->w_dx, at);
+    int32_t u_q16 = walk->u.next_q16;
+    int32_t v_q16 = walk->v.next_q16;
+    uint16_t *const begin = colour;
+    const uint16_t *const end = colour + most;
+    do {
+        *colour++ = (uint16_t)el_texel_at(&from, (uint32_t)u_q16, (uint32_t)v_q16);
+        w += here.w_dx;
+        find_of_w(&here, w);
+        u_q16 = next_knot(&u, &here);
+        v_q16 = next_knot(&v, &here);
+    } while (colour != end && here.w_log2_q8 < here.more_q8);
+    walk->w_log2_q8 = here.w_log2_q8;
+    walk->w_shift = here.w_shift;
+    walk->reciprocal = here.reciprocal;
+    walk->u.next_q16 = u_q16;
+    walk->v.next_q16 = v_q16;
+    return (uint32_t)(colour - begin);
+}
+#endif

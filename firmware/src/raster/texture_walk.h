@@ -64,6 +64,27 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
  * u.q16 and v.q16 belong to its first pixel, the steps lead to the others. */
 uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most);
 
+#if !EL_SMALL_CODE
+/* Whether the next piece has one pixel, and so have those after it, for a while. */
+static inline bool el_texture_walk_is_at_knots(const el_texture_walk *walk)
+{
+    return walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8;
+}
+
+/* Draws such pieces, a texel each, from `colour` on: the first is `at` pixels after the span's first, and there are `most`
+ * at most, as for el_texture_walk_piece. Returns how many, 1 at least. */
+struct el_texel_source;
+uint32_t el_texture_walk_knots(el_texture_walk *walk, const struct el_texel_source *source, uint16_t *colour, uint32_t at,
+                               uint32_t most);
+#endif
+
+/* Moves the piece's beginning on by so many of its pixels. */
+static inline void el_texture_walk_skip(el_texture_walk *walk, uint32_t pixels)
+{
+    walk->u.q16 = (int32_t)((uint32_t)walk->u.q16 + (uint32_t)walk->u.step_q16 * pixels);
+    walk->v.q16 = (int32_t)((uint32_t)walk->v.q16 + (uint32_t)walk->v.step_q16 * pixels);
+}
+
 /* Makes the last pixel, which no piece has. */
 static inline void el_texture_walk_last(el_texture_walk *walk)
 {
