@@ -1,7 +1,7 @@
 #include "raster/depth_row.h"
 
 #include "base/fill.h"
-#include "base/fixed.h"
+#include "base/options.h"
 
 /* Of several steps along a row compilers make products and sums, for which there are no registers. What they know nothing of
  * stays a step. */
@@ -11,20 +11,7 @@
 #define KEEP_STEP(x) ((void)0)
 #endif
 
-/* Pixels of which it is asked at once whether all are nearer. */
-enum { BLOCK = 8 };
-
-void el_depth_row_begin(el_depth_row *row, uint16_t *depth, uint32_t count, uint64_t z, uint64_t step)
-{
-    row->z = z;
-    row->step = step;
-    row->next = depth;
-    row->end = depth + count;
-    /* From a block's first pixel to its farthest, rounded up. In a span that has a block, depths grow by less than 2^16
-     * along it; elsewhere it is not asked for. */
-    const int32_t whole = (int32_t)(uint32_t)(step >> 32);
-    row->farther = whole < 0 ? 0U : (BLOCK - 1U) * ((uint32_t)whole + 1U);
-}
+enum { BLOCK = EL_DEPTH_BLOCK };
 
 /* Whether each of a block's depths is beyond `far`, as far as that is seen at once: in the bits that all of them have, which
  * are a depth that none is nearer than. What is empty, or far behind, has many of them. */
