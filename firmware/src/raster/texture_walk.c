@@ -8,7 +8,7 @@ enum {
     LENGTHS = 14,
     STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
     NEVER_Q8 = 1 << 20,
-    J_MARGIN_FROM = 1 << 10,
+    LEAST_UPPER = 1 << 11, /* of |J|, in units of 2^32, that is looked at closer */
     /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 3 * 2^-16 texel and steps are cut off
      * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
     ROUNDING_RESERVE_Q8 = 24
@@ -65,6 +65,12 @@ static inline uint32_t upper_word(uint64_t x, unsigned shift)
     return (uint32_t)(x >> 32) << shift | (uint32_t)x >> 1 >> (31U - shift);
 }
 
+/* log2 rounded up of a number with `power` bits behind its first one, whose leading bits are those of `normalised`. */
+static inline int32_t log2_ceil_of_normalised_q8(uint32_t normalised, int32_t power)
+{
+    return power * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+}
+
 /* log2 x rounded up; x >= 1. *near is for leading_zeros. */
 static int32_t log2_ceil_q8(uint64_t x, uint32_t *near)
 {
@@ -73,7 +79,7 @@ static int32_t log2_ceil_q8(uint64_t x, uint32_t *near)
     const unsigned leading = leading_zeros(word, *near);
     *near = leading;
     const uint32_t normalised = upper != 0 ? upper_word(x, leading) : word << leading;
-    return ((upper != 0 ? 63 : 31) - (int32_t)leading) * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+    return log2_ceil_of_normalised_q8(normalised, (upper != 0 ? 63 : 31) - (int32_t)leading);
 }
 
 /* base + 2^shift U / W in Q16 texels, off by less than 3 units; down is 30 - shift. |U| <= W < 2^31, so with both moved up
@@ -122,13 +128,18 @@ static EACH_PIECE void find_knot(el_texture_axis *axis, const el_texture_walk *w
     axis->step_q16 = el_multiply_high_i32_u32(to_q16 - from_q16, step_reciprocal);
 }
 
+static inline int32_t step_q4_of(const el_texture_axis *axis)
+{
+    return (int32_t)((int64_t)axis->dx >> 28);
+}
+
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
  * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the gradients' fraction moves J by less
  * than W + |U| <= 2 W, cutting off that of U and W by less than |U'| + |W'|. */
 static EL_SELDOM int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
 {
     const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
-    const int32_t step_q4 = (int32_t)((int64_t)axis->dx >> 28);
+    const int32_t step_q4 = step_q4_of(axis);
     const int64_t j_q4 = el_product_i32(step_q4, w) - el_product_i32(value, w_step_q4);
     const uint64_t cut_off_q4 = el_abs_u64(step_q4) + el_abs_u64(w_step_q4) + 2U * ((uint64_t)(uint32_t)w + 1U);
     const uint64_t bound_q4 = el_abs_u64(j_q4) + cut_off_q4;
@@ -141,27 +152,28 @@ static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_
     return curvature_q8(axis, w, w_step_q4);
 }
 #else
-/* The same. Products to 2^32 tell J to 3 * 2^32, and what is cut off is 2 * 2^32 at most: with `most` the nearest multiple of
- * 2^32, the number whose logarithm is asked for lies between most - 3 and most + 5 of them. Mostly both have the same leading
- * bits, and what a logarithm looks at is known. */
+/* The same, mostly from upper words: they tell |J| to 3 * 2^32, and what is cut off is at most 2 * 2^32. So, in units of
+ * 2^32, the number whose logarithm is asked for is at least the magnitude less 3, and less than 8 more. The logarithm looks
+ * at eight bits, which mostly are the same from there to there. */
 static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
 {
     const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
-    const int32_t step_q4 = (int32_t)((int64_t)axis->dx >> 28);
-    /* Gradients are below 2^31 and values below 2^31: each product is below 2^30. */
-    const int32_t j = el_product_near_i32(step_q4, w) - el_product_near_i32(value, w_step_q4);
-    const uint32_t magnitude = (uint32_t)(j < 0 ? -j : j);
-    if (magnitude < J_MARGIN_FROM) {
+    const int32_t step_q4 = step_q4_of(axis);
+    /* Either is within 2^30 + 2. Where their difference runs over, the magnitude is within 3 of 2^31, and its bits are those
+     * that do not tell. */
+    const uint32_t upper = (uint32_t)el_product_near_i32(step_q4, w) - (uint32_t)el_product_near_i32(value, w_step_q4);
+    const uint32_t magnitude = upper >> 31 != 0 ? 0U - upper : upper;
+    if (magnitude < LEAST_UPPER) {
         return curvature_q8(axis, w, w_step_q4);
     }
     const uint32_t least = magnitude - 3U;
-    const unsigned leading = leading_zeros(least, axis->curvature_shift);
+    const unsigned leading = leading_zeros(least, axis->curvature_shift); /* 21 at most */
     const uint32_t normalised = least << leading;
-    if (((normalised ^ (normalised + (8U << leading))) >> 24) != 0) {
+    if ((normalised & 0xFFFFFFU) >= (1U << 24) - (7U << leading)) {
         return curvature_q8(axis, w, w_step_q4);
     }
     axis->curvature_shift = leading;
-    return (63 - (int32_t)leading + 30 - (int32_t)axis->down) * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+    return log2_ceil_of_normalised_q8(normalised, 63 - (int32_t)leading + 30 - (int32_t)axis->down);
 }
 #endif
 

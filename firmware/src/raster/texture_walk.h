@@ -74,8 +74,8 @@ static inline bool el_texture_walk_is_at_knots(const el_texture_walk *walk)
 /* Draws such pieces, a texel each, from `colour` on: the first is `at` pixels after the span's first, and there are `most`
  * at most, as for el_texture_walk_piece. Returns how many, 1 at least. */
 struct el_texel_source;
-uint32_t el_texture_walk_knots(el_texture_walk *walk, const struct el_texel_source *source, uint16_t *colour, uint32_t at,
-                               uint32_t most);
+uint32_t el_texture_walk_knots(el_texture_walk *walk, const struct el_texel_source *source, uint16_t *colour,
+                               uint32_t at, uint32_t most);
 #endif
 
 /* Moves the piece's beginning on by so many of its pixels. */
