@@ -253,8 +253,8 @@ class Near:
 
     bound: Poly  # what curvature_q8 takes it of
     down: Poly
-    normalised: Poly | None = None
-    power: Poly | None = None
+    normalised: Poly = field(default_factory=lambda: Poly.of(0))
+    power: Poly = field(default_factory=lambda: Poly.of(0))
 
 
 NEAR: dict[int, Near] = {}
@@ -312,7 +312,7 @@ def near_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     asked = NEAR.pop(id(path))
     if result.poly.known == EXACTLY:
         return
-    require(result.poly.known == LOG_OF_NEAR and asked.normalised is not None and asked.power is not None, "a logarithm")
+    require(result.poly.known == LOG_OF_NEAR, "a logarithm")
     leading = machine.locals["find_curvature_q8.leading"].poly.known
     require((asked.power - (63 - leading + 30 - asked.down)).constant == 0, "of so many bits, times 2^shift")
     require(path.within(asked.normalised, 2**31, WORD - 1), "normalised")
@@ -572,7 +572,7 @@ def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     if path.holds(1 - arguments[3].poly):
         return  # no piece is asked for
     logs = table("length_q8")
-    i, falls = machine.poly(walk, "length").known, machine.poly(walk, "w_dx").known == FALLS
+    i = machine.poly(walk, "length").known
     room = machine.poly(walk, "w_log2_q8") - machine.poly(walk, "limit_q8")
     if i > 0:
         path.prove(room - logs[i], "W is enough for it")
@@ -580,9 +580,7 @@ def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
         path.prove(logs[i + 1] - 1 - room, "and for none that is longer")
 
 
-BEGIN = Subject(
-    FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin", "plane_at"]
-)
+BEGIN = Subject(FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin", "plane_at"])
 
 
 def start_domain(machine: Machine) -> list[Any]:
@@ -677,7 +675,12 @@ def limit_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 
 
 LIMIT = Subject(
-    FILE, "find_limit", limit_domain, limit_check, modular=["find_limit"], contracts={"find_curvature_q8": curvature_found}
+    FILE,
+    "find_limit",
+    limit_domain,
+    limit_check,
+    modular=["find_limit"],
+    contracts={"find_curvature_q8": curvature_found},
 )
 SUBJECTS = {
     "curvature": CURVATURE,
@@ -712,7 +715,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("curvature, from upper words", FILE, "magnitude - 3U", "magnitude - 2U"),
         ("curvature, from upper words", FILE, "(7U << leading)", "(6U << leading)"),
         ("curvature, from upper words", FILE, "LEAST_UPPER = 1 << 11", "LEAST_UPPER = 1 << 9"),
-        ("curvature, from upper words", FILE, "(normalised, 63 - (int32_t)leading", "(normalised, 64 - (int32_t)leading"),
+        ("curvature, from upper words", FILE, "(normalised, 63 - (int32_t)", "(normalised, 64 - (int32_t)"),
         ("steep", FILE, "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
         ("step", FILE, "477218589U", "477218689U"),
         ("step, small code", FILE, "0xFFFFFFFFU / length + 1U", "0xFFFFFFFFU / (length + 1U)"),
