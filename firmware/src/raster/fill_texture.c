@@ -3,115 +3,23 @@
 #include "base/fixed.h"
 #include "raster/depth_row.h"
 #include "raster/fill.h"
-#include "raster/texel.h"
+#include "raster/texel_row.h"
 #include "raster/texture_walk.h"
 
 #if !EL_SMALL_CODE
-/* Both coordinates in one number of 64 bits, which one addition steps. Its upper word has u at the top, so that what runs
- * over is what repeats, u's fraction of 16 bits, and v in what is left below, whose fraction is in the lower word:
- *
- *     | u | fraction of u | v, from the middle of its field | fraction of v | 0 |
- *
- * v has a field of 16 - width_log2 bits. If those are two more than a texture's height has, and v begins in their middle, it
- * is in the third quarter there; EL_MAX_PIECE pixels of less than a 256th of the field each lead by less than a quarter up
- * or down, so it never runs over into u, where a single unit shows at a texel's edge (test_texels). Turned left by u's bits,
- * the upper word ends in the index of a texel; by one bit more, in twice that, which is its offset. */
-typedef struct packing {
-    uint32_t mask;             /* of an offset, in bytes */
-    unsigned turn;             /* to the right, 0 to 31 */
-    unsigned u_up;             /* from Q16 to the top */
-    uint32_t v_mask, v_middle; /* Q16 */
-    uint32_t v_step_most;      /* Q16: v's step must be less; 0 where no step is small enough */
-} packing;
-
-static packing packing_of(const el_texture *texture)
-{
-    const unsigned width_log2 = texture->width_log2;
-    const unsigned height_log2 = texture->height_log2;
-    return (packing){
-        .mask = ((1U << (width_log2 + height_log2)) - 1U) << 1,
-        .turn = 31U - width_log2,
-        .u_up = 16U - width_log2,
-        .v_mask = (1U << (16U + height_log2)) - 1U,
-        .v_middle = 0x80000000U >> width_log2,
-        .v_step_most = width_log2 + height_log2 <= 14U ? 1U << (24U - width_log2) : 0U,
-    };
-}
-
 /* What the pixels of a triangle are drawn with. */
 typedef struct brush {
-    el_texel_source source;
-    packing packing;
+    el_texels texels;
     el_texture_walk walk;
     el_slopes slopes;
     uint32_t y;
 } brush;
 
-static bool can_pack(const brush *b)
-{
-    return (uint32_t)b->walk.v.step_q16 + b->packing.v_step_most < 2U * b->packing.v_step_most;
-}
-
-/* A call per piece costs a tenth of the piece where registers are many; on Armv6-M less than what must be moved away. */
-#if defined(__ARM_ARCH_6M__)
-#define EACH_PIECE __attribute__((noinline))
-#else
-#define EACH_PIECE EL_SPECIALISED
-#endif
-
-/* Draws the first `count` pixels of the walk's piece, where they can be packed. */
-static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t count)
-{
-    const packing p = b->packing;
-    const el_texture_axis *const u = &b->walk.u;
-    const el_texture_axis *const v = &b->walk.v;
-    const uint8_t *const texels = (const uint8_t *)b->source.texels;
-    const uint32_t v_q16 = ((uint32_t)v->q16 & p.v_mask) + p.v_middle;
-    const uint32_t upper = ((uint32_t)u->q16 << p.u_up) + (v_q16 >> 16);
-    const uint32_t upper_step = ((uint32_t)u->step_q16 << p.u_up) + (uint32_t)(v->step_q16 >> 16);
-    const uint64_t step = (uint64_t)upper_step << 32 | (uint32_t)v->step_q16 << 16;
-    uint64_t at = (uint64_t)upper << 32 | v_q16 << 16;
-    const uint16_t *const end = colour + count;
-    /* By twos: a piece has a dozen pixels, and what a longer loop needs to begin costs more than it saves. */
-#pragma GCC unroll 2
-    do {
-        const uint32_t word = (uint32_t)(at >> 32);
-        const uint32_t offset = (word >> p.turn | word << (-p.turn & 31U)) & p.mask;
-        *colour++ = *(const uint16_t *)(const void *)(texels + offset);
-        at += step;
-    } while (colour != end);
-}
-
-/* The same of any texture and step. */
-static __attribute__((noinline)) void draw_any(const brush *b, uint16_t *colour, uint32_t count)
-{
-    const el_texel_source source = b->source;
-    const uint32_t u_step_q16 = (uint32_t)b->walk.u.step_q16;
-    const uint32_t v_step_q16 = (uint32_t)b->walk.v.step_q16;
-    uint32_t u_q16 = (uint32_t)b->walk.u.q16;
-    uint32_t v_q16 = (uint32_t)b->walk.v.q16;
-    const uint16_t *const end = colour + count;
-    do {
-        *colour++ = (uint16_t)el_texel_at(&source, u_q16, v_q16);
-        u_q16 += u_step_q16;
-        v_q16 += v_step_q16;
-    } while (colour != end);
-}
-
-static EL_SPECIALISED void draw_part(const brush *b, uint16_t *colour, uint32_t count)
-{
-    if (can_pack(b)) {
-        draw_packed(b, colour, count);
-    } else {
-        draw_any(b, colour, count);
-    }
-}
-
 /* The last pixel of a span, where its last knot is. */
 static EL_SPECIALISED void draw_last(brush *b, uint16_t *colour)
 {
     el_texture_walk_last(&b->walk);
-    *colour = (uint16_t)el_texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
+    *colour = (uint16_t)el_texel_at(&b->texels.source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
 }
 
 /* Lights the texels of pixels [x, x_end), one at least. They were drawn before, so that neither loop has to keep what the
@@ -180,7 +88,7 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
         while (run < piece_end) {
             const uint32_t end = run_end < piece_end ? run_end : piece_end;
             el_texture_walk_skip(&b->walk, run - begun);
-            draw_part(b, row + run, end - run);
+            el_texture_walk_draw_part(&b->walk, &b->texels, row + run, end - run);
             begun = run;
             run = end;
             if (run == run_end && run < x_end) {
@@ -206,14 +114,8 @@ static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
-    uint32_t length = x < last && el_texture_walk_is_at_knots(&b->walk) ? 1U : 0U;
     while (x < last) {
-        if (length == 1 && el_texture_walk_is_at_knots(&b->walk)) {
-            length = el_texture_walk_knots(&b->walk, &b->source, row + x, at, last - x);
-        } else {
-            length = el_texture_walk_piece(&b->walk, at, last - x);
-            draw_part(b, row + x, length);
-        }
+        const uint32_t length = el_texture_walk_draw(&b->walk, &b->texels, row + x, at, last - x);
         x += length;
         at += length;
     }
@@ -238,8 +140,7 @@ static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, u
 static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     brush b;
-    b.source = el_texel_source_of(triangle->surface.texture);
-    b.packing = packing_of(triangle->surface.texture);
+    b.texels = el_texels_of(triangle->surface.texture);
     b.y = (uint32_t)triangle->y;
     el_texture_walk_start(&b.walk, triangle);
     const el_perspective *const planes = &triangle->perspective;

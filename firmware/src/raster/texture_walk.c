@@ -2,7 +2,7 @@
 
 #include "base/divide.h"
 #include "base/fixed.h"
-#include "raster/texel.h"
+#include "raster/texel_row.h"
 
 enum {
     LENGTHS = 14,
@@ -379,13 +379,18 @@ static inline uint32_t find_end(el_texture_walk *walk, uint32_t at, uint32_t mos
 }
 #endif
 
-uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+static EL_SPECIALISED uint32_t make_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
 {
     const uint32_t length = find_end(walk, at, most);
     const uint32_t step_reciprocal = reciprocal_of(length);
     find_knot(&walk->u, walk, at + length, step_reciprocal);
     find_knot(&walk->v, walk, at + length, step_reciprocal);
     return length;
+}
+
+uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+{
+    return make_piece(walk, at, most);
 }
 
 #if !EL_SMALL_CODE
@@ -412,8 +417,9 @@ static inline int32_t next_knot(steps *s, const el_texture_walk *walk)
     return knot(s->value, walk->w_shift, walk->reciprocal, s->down, s->base_q16);
 }
 
-uint32_t el_texture_walk_knots(el_texture_walk *walk, const el_texel_source *source, uint16_t *colour, uint32_t at,
-                               uint32_t most)
+/* Pieces of one pixel, until W is enough for longer ones. */
+static __attribute__((noinline)) uint32_t draw_knots(el_texture_walk *walk, const el_texel_source *source,
+                                                     uint16_t *colour, uint32_t at, uint32_t most)
 {
     el_texture_walk here = *walk;
     const el_texel_source from = *source;
@@ -437,5 +443,35 @@ uint32_t el_texture_walk_knots(el_texture_walk *walk, const el_texel_source *sou
     walk->u.next_q16 = u_q16;
     walk->v.next_q16 = v_q16;
     return (uint32_t)(colour - begin);
+}
+
+static EL_SPECIALISED el_texel_row row_of(const el_texture_walk *walk, uint16_t *colour, uint32_t count)
+{
+    return (el_texel_row){
+        .u_q16 = (uint32_t)walk->u.q16,
+        .v_q16 = (uint32_t)walk->v.q16,
+        .u_step_q16 = (uint32_t)walk->u.step_q16,
+        .v_step_q16 = (uint32_t)walk->v.step_q16,
+        .colour = colour,
+        .count = count,
+    };
+}
+
+uint32_t el_texture_walk_draw(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t at,
+                              uint32_t most)
+{
+    if (walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8) {
+        return draw_knots(walk, &texels->source, colour, at, most);
+    }
+    const uint32_t length = make_piece(walk, at, most);
+    const el_texel_row row = row_of(walk, colour, length);
+    el_draw_texels(texels, &row);
+    return length;
+}
+
+void el_texture_walk_draw_part(const el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t count)
+{
+    const el_texel_row row = row_of(walk, colour, count);
+    el_draw_texels(texels, &row);
 }
 #endif

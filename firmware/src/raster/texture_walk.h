@@ -65,17 +65,15 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
 uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most);
 
 #if !EL_SMALL_CODE
-/* Whether the next piece has one pixel, and so have those after it, for a while. */
-static inline bool el_texture_walk_is_at_knots(const el_texture_walk *walk)
-{
-    return walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8;
-}
+struct el_texels;
 
-/* Draws such pieces, a texel each, from `colour` on: the first is `at` pixels after the span's first, and there are `most`
- * at most, as for el_texture_walk_piece. Returns how many, 1 at least. */
-struct el_texel_source;
-uint32_t el_texture_walk_knots(el_texture_walk *walk, const struct el_texel_source *source, uint16_t *colour,
-                               uint32_t at, uint32_t most);
+/* Makes the same piece, or several of one pixel, and draws it from `colour` on. Returns how many pixels were drawn. */
+uint32_t el_texture_walk_draw(el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour, uint32_t at,
+                              uint32_t most);
+
+/* Draws the first `count` pixels of the piece that was made, one at least. */
+void el_texture_walk_draw_part(const el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour,
+                               uint32_t count);
 #endif
 
 /* Moves the piece's beginning on by so many of its pixels. */
