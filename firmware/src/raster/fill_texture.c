@@ -112,15 +112,10 @@ static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint
                                     unsigned kind)
 {
     const uint32_t last = x_end - 1U;
-    uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
-    while (x < last) {
-        const uint32_t length = el_texture_walk_draw(&b->walk, &b->texels, row + x, at, last - x);
-        x += length;
-        at += length;
-    }
+    el_texture_walk_draw(&b->walk, &b->texels, row + x, last - x);
     draw_last(b, row + last);
-    light(b, row, x_end - 1U - at, x_end, kind);
+    light(b, row, x, x_end, kind);
 }
 
 static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, uint16_t *row, uint16_t *depth_row,

@@ -457,16 +457,26 @@ static EL_SPECIALISED el_texel_row row_of(const el_texture_walk *walk, uint16_t 
     };
 }
 
-uint32_t el_texture_walk_draw(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t at,
-                              uint32_t most)
+/* Makes a piece and draws it. */
+static EACH_PIECE uint32_t draw_piece(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t at,
+                                      uint32_t most)
 {
-    if (walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8) {
-        return draw_knots(walk, &texels->source, colour, at, most);
-    }
     const uint32_t length = make_piece(walk, at, most);
     const el_texel_row row = row_of(walk, colour, length);
     el_draw_texels(texels, &row);
     return length;
+}
+
+void el_texture_walk_draw(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t pixels)
+{
+    uint32_t at = 0;
+    while (at < pixels) {
+        if (walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8) {
+            at += draw_knots(walk, &texels->source, colour + at, at, pixels - at);
+        } else {
+            at += draw_piece(walk, texels, colour + at, at, pixels - at);
+        }
+    }
 }
 
 void el_texture_walk_draw_part(const el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t count)

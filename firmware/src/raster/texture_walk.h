@@ -67,9 +67,8 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
 #if !EL_SMALL_CODE
 struct el_texels;
 
-/* Makes the same piece, or several of one pixel, and draws it from `colour` on. Returns how many pixels were drawn. */
-uint32_t el_texture_walk_draw(el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour, uint32_t at,
-                              uint32_t most);
+/* Makes the pieces that have the span's first `pixels` pixels, all but its last, and draws them from `colour` on. */
+void el_texture_walk_draw(el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour, uint32_t pixels);
 
 /* Draws the first `count` pixels of the piece that was made, one at least. */
 void el_texture_walk_draw_part(const el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour,
