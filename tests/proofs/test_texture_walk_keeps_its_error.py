@@ -242,6 +242,89 @@ def curvature_check(machine: Machine, arguments: list[Any], result: Number) -> N
 CURVATURE = Subject(FILE, "curvature_q8", curvature_domain, curvature_check, ["el_abs_u64"], LOGS)
 
 
+# --- the same, mostly from upper words --------------------------------------------------------------------------------
+
+EXACTLY = 17  # a number to know the exact way by
+
+
+@dataclass
+class Near:
+    """What find_curvature_q8 is asked for on one path, and what it takes the logarithm of."""
+
+    bound: Poly  # what curvature_q8 takes it of
+    down: Poly
+    normalised: Poly = field(default_factory=lambda: Poly.of(0))
+    power: Poly = field(default_factory=lambda: Poly.of(0))
+
+
+NEAR: dict[int, Near] = {}
+
+
+def near_domain(machine: Machine) -> list[Any]:
+    """Any U, W and gradients, as whole parts and with 4 bits of fraction."""
+    path = machine.path
+    u_step, w_step, u = (path.atom(name, -(2**31), 2**31 - 1) for name in ("u_step", "w_step", "u"))
+    w = path.atom("w", 1, 2**31 - 1)
+    signed = {}
+    for name, of, unit in (("dx", u_step, 2**28), ("value", u, WORD)):
+        exact = of * unit + path.atom(f"rest of {name}", 0, unit - 1)
+        signed[name] = exact if path.decide(of, -of - 1) else exact + 2**64
+    axis = machine.struct("el_texture_axis", **signed)
+    down = path.atom("down", 3, 30)
+    machine.put(axis.content["down"], down)
+    machine.put(axis.content["curvature_shift"], path.atom("near", 0, 31))
+    j = u_step * w - u * w_step
+    magnitudes = [of if path.decide(of, -of - 1) else -of for of in (j, u_step, w_step)]
+    asked = NEAR[id(path)] = Near(sum(magnitudes[1:], magnitudes[0]) + w * 2 + 2, down)
+
+    def near(of: Machine, arguments: list[Any]) -> Number:
+        """el_product_near_i32: a b / 2^32, too low by less than EL_PRODUCT_ERROR (test_products_are_exact)."""
+        a, b = (argument.poly for argument in arguments)
+        product = of.path.atom("product", -(2**30) - 2, 2**30)
+        error = of.constant(of.unit.constants["EL_PRODUCT_ERROR"])
+        of.path.assume(a * b - product * WORD)
+        of.path.assume((product + error) * WORD - 1 - a * b)
+        return of.exactly("int32_t", product)
+
+    def leading(of: Machine, arguments: list[Any]) -> Number:
+        return of.leading_zeros(arguments[0], 32, None)
+
+    def logarithm(of: Machine, arguments: list[Any]) -> Number:
+        asked.normalised, asked.power = (argument.poly for argument in arguments)
+        return of.exactly("int32_t", LOG_OF_NEAR)
+
+    machine.contracts = {
+        "el_product_near_i32": near,
+        "leading_zeros": leading,
+        "log2_ceil_of_normalised_q8": logarithm,
+        "curvature_q8": lambda of, _: of.exactly("int32_t", EXACTLY),
+    }
+    return [Pointer([axis]), machine.exactly("int32_t", w), machine.exactly("int32_t", w_step)]
+
+
+LOG_OF_NEAR = 19  # a number to know it by
+
+
+def near_check(machine: Machine, arguments: list[Any], result: Number) -> None:
+    """curvature_q8's own result, or log2_ceil_of_normalised_q8 of numbers that log2_ceil_q8 would give it: of as many
+    bits, of which the first eight, at which it looks, are the same."""
+    path = machine.path
+    asked = NEAR.pop(id(path))
+    if result.poly.known == EXACTLY:
+        return
+    require(result.poly.known == LOG_OF_NEAR, "a logarithm")
+    leading = machine.locals["find_curvature_q8.leading"].poly.known
+    require((asked.power - (63 - leading + 30 - asked.down)).constant == 0, "of so many bits, times 2^shift")
+    require(path.within(asked.normalised, 2**31, WORD - 1), "normalised")
+    # Of the number itself, in units of 2^(56 - leading): from those eight bits on, and less than one more.
+    first = path.floor(asked.normalised, 1 << 24)
+    path.prove(asked.bound - first * (1 << 56 - leading), "no fewer than those eight bits")
+    path.prove((first + 1) * (1 << 56 - leading) - 1 - asked.bound, "and no more")
+
+
+NEARLY = Subject(FILE, "find_curvature_q8", near_domain, near_check, modular=["find_curvature_q8"])
+
+
 def curvature_contract(machine: Machine, _: list[Any]) -> Number:
     """curvature_q8: a logarithm, and the shift of the coordinate."""
     return machine.number("int32_t", "curvature", 0, 64 * 256 + 1 + 27 * 256)
@@ -310,12 +393,12 @@ def any_walk(machine: Machine, falls: int, length: int) -> Any:
 def piece_domain(machine: Machine) -> list[Any]:
     """Where W grows, it is enough at the last knot for the length that there is, or that is one pixel.
 
-    So begin leaves it, and each piece. Where W falls, one pixel is never tried first.
+    So begin leaves it, and each piece.
     """
     path = machine.path
     count = machine.constant(machine.unit.constants["LENGTHS"])
     falls = path.choose(path.atom("falls", 0, 1))
-    length = path.choose(path.atom("length", falls, count - 1))
+    length = path.choose(path.atom("length", 0, count - 1))
     walk = any_walk(machine, falls, length)
     if not falls and length > 0:
         path.assume(machine.poly(walk, "w_log2_q8") - machine.poly(walk, "limit_q8") - table("length_q8")[length])
@@ -394,7 +477,6 @@ def piece_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     machine.call("set_length", Pointer([after]), machine.exactly("uint32_t", i))
     for name in ("pixels", "more_q8", "enough_q8"):
         path.prove(machine.poly(after, name) - machine.poly(walk, name), f"{name} of that length", zero=True)
-    require(i >= piece.falls, "where W falls, one pixel is not tried first")
     if not piece.falls and i > 0:
         path.prove(piece.there - limit - logs[i], "W is enough for that length at the next knot")
 
@@ -434,6 +516,8 @@ def begin_domain(machine: Machine) -> list[Any]:
         machine.put(walk.content[name].content["dx"], gradient)
     falls = path.choose(path.atom("falls", 0, 1))
     gradients["w"] = Poly.of(FALLS if falls else GROWS)
+    for name, gradient in gradients.items():
+        machine.put(planes.content[name].content["dx"], gradient)
     for name, value in {
         "w_dx": gradients["w"],
         "is_curved": curved,
@@ -488,16 +572,15 @@ def begin_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     if path.holds(1 - arguments[3].poly):
         return  # no piece is asked for
     logs = table("length_q8")
-    i, falls = machine.poly(walk, "length").known, machine.poly(walk, "w_dx").known == FALLS
+    i = machine.poly(walk, "length").known
     room = machine.poly(walk, "w_log2_q8") - machine.poly(walk, "limit_q8")
-    require(i >= falls, "where W falls, one pixel is not tried first")
-    if i > 0 and not (falls and i == 1):
+    if i > 0:
         path.prove(room - logs[i], "W is enough for it")
     if i + 1 < len(logs):
         path.prove(logs[i + 1] - 1 - room, "and for none that is longer")
 
 
-BEGIN = Subject(FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin"])
+BEGIN = Subject(FILE, "el_texture_walk_begin", begin_domain, begin_check, modular=["el_texture_walk_begin", "plane_at"])
 
 
 def start_domain(machine: Machine) -> list[Any]:
@@ -592,10 +675,16 @@ def limit_check(machine: Machine, arguments: list[Any], _: Any) -> None:
 
 
 LIMIT = Subject(
-    FILE, "find_limit", limit_domain, limit_check, modular=["find_limit"], contracts={"curvature_q8": curvature_found}
+    FILE,
+    "find_limit",
+    limit_domain,
+    limit_check,
+    modular=["find_limit"],
+    contracts={"find_curvature_q8": curvature_found},
 )
 SUBJECTS = {
     "curvature": CURVATURE,
+    "curvature, from upper words": NEARLY,
     "steep": STEEPNESS,
     "step": step(),
     "step, small code": step(SMALL_CODE),
@@ -623,6 +712,10 @@ def test_the_compiler_agrees(name: str) -> None:
         ("curvature", FILE, "axis->dx >> 28", "axis->dx >> 27"),
         ("curvature", FILE, "= el_abs_u64(step_q4) + el_abs_u64(w_step_q4)", "= el_abs_u64(step_q4)"),
         ("curvature", FILE, "2U * ((uint64_t)(uint32_t)w + 1U)", "((uint64_t)(uint32_t)w + 1U)"),
+        ("curvature, from upper words", FILE, "magnitude - 3U", "magnitude - 2U"),
+        ("curvature, from upper words", FILE, "(7U << leading)", "(6U << leading)"),
+        ("curvature, from upper words", FILE, "LEAST_UPPER = 1 << 11", "LEAST_UPPER = 1 << 9"),
+        ("curvature, from upper words", FILE, "(normalised, 63 - (int32_t)", "(normalised, 64 - (int32_t)"),
         ("steep", FILE, "1ULL << (32 + STEEP_LOG2)", "1ULL << (33 + STEEP_LOG2)"),
         ("step", FILE, "477218589U", "477218689U"),
         ("step, small code", FILE, "0xFFFFFFFFU / length + 1U", "0xFFFFFFFFU / (length + 1U)"),
@@ -636,7 +729,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("piece", FILE, "walk->w_log2_q8 < walk->enough_q8", "walk->w_log2_q8 < walk->enough_q8 - 1"),
         ("piece", FILE, "} while (i > 0 && walk->w_log2_q8", "} while (i > 0 && walk->w_log2_q8 + 1"),
         ("piece", FILE, "find_knot(&walk->v, walk, at + length", "find_knot(&walk->v, walk, at"),
-        ("piece", FILE, "i > 0 ? i : 1", "i"),
+        ("piece", FILE, "i > 0 ? walk->limit_q8 + length_q8[i] : INT32_MIN", "INT32_MIN"),
         ("piece", FILE, "more_q8 = walk->limit_q8 + length_q8[i + 1U]", "more_q8 = walk->limit_q8 + length_q8[i]"),
         ("begin", FILE, "+ EL_W_MARGIN_Q32", ""),
         ("begin", FILE, "while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]) {", "while (i > 9) {"),

@@ -19,7 +19,8 @@ typedef struct row_case {
     uint16_t before[MOST + 2];
 } row_case;
 
-/* Spans of any slope that stay within 0 to 65535, at either end of it often, before rows that are empty, drawn, or both. */
+/* Spans of any slope that stay within 0 to 65535, at either end of it often, before rows that are empty, drawn, or both: what
+ * is drawn has any depths, or nearly the same ones, often about as far as the span's begin. */
 static row_case any_row(seeded *s)
 {
     row_case c = {.offset = any_below(s, 2), .count = 1 + any_below(s, MOST)};
@@ -32,12 +33,16 @@ static row_case any_row(seeded *s)
     c.z = ((uint64_t)ends[0] << 32) + (1ULL << 31);
     uint32_t left = 0;
     bool empty = false;
+    uint32_t base = 0;
+    uint32_t range = 65536;
     for (uint32_t i = 0; i < MOST + 2; i++, left--) {
         if (left == 0) {
             left = 1 + any_below(s, 40);
             empty = !empty;
+            range = 1U << any_below(s, 17);
+            base = any_below(s, 2) == 0 ? ends[0] : any_below(s, 65536);
         }
-        c.before[i] = empty ? EL_DEPTH_EMPTY : (uint16_t)any_below(s, 65536);
+        c.before[i] = empty ? EL_DEPTH_EMPTY : (uint16_t)((base + any_below(s, range)) & 0xFFFFU);
     }
     return c;
 }

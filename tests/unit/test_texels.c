@@ -1,9 +1,10 @@
-/* Texels that are fetched in the fastest way, against one at a time: triangles whose u and v are as el_triangle_sample has
+/* Texels that are fetched and lit in the fastest way, against one at a time: triangles whose u and v are as el_triangle_sample has
  * them, with textures of every shape. Those of up to 2^14 texels are packed (raster/fill_texture.c), unless v moves too
  * fast; here its steps lie on both sides of that bound, and pieces are as long as they get. */
 #include <string.h>
 
 #include "any_triangle.h"
+#include "base/dither.h"
 #include "unity.h"
 
 void setUp(void)
@@ -84,17 +85,54 @@ static uint16_t texel_at(const el_texture *texture, const el_sample *sample)
     return texture->texels[(row << texture->width_log2) + column];
 }
 
-static void expect_texels(uint64_t seed, bool with_depth)
+/* A channel of a texel, 0 to `levels`, in light from 0 to 255 in 8.24 with its half added. */
+static uint32_t lit(uint32_t channel, uint32_t light_q24, const el_surface *surface, uint32_t x, uint32_t y)
+{
+    const int32_t light_q16 = (((int32_t)(light_q24 >> 16) - 0x80) * 257) >> 8;
+    if (surface->dither) {
+        return (uint32_t)((int32_t)channel * light_q16 + (int32_t)el_dither_threshold_q16(x, y)) >> 16;
+    }
+    return (channel * ((light_q24 >> 24) + 1U)) >> 8;
+}
+
+static uint16_t pixel_at(const el_surface *surface, const el_sample *sample, uint32_t x, uint32_t y)
+{
+    const uint32_t texel = texel_at(surface->texture, sample);
+    const uint32_t *const light = sample->rgb_plus_half_q24;
+    if (surface->shading == EL_SHADE_TEXTURED) {
+        return (uint16_t)texel;
+    }
+    return (uint16_t)(lit(texel >> 11, light[0], surface, x, y) << 11 |
+                      lit((texel >> 5) & 63U, light[1], surface, x, y) << 5 |
+                      lit(texel & 31U, light[2], surface, x, y));
+}
+
+/* Light that is different everywhere, or the same; often as dark or as bright as it gets. */
+static void any_light(seeded *s, el_corner corners[3])
+{
+    const bool is_even = any_below(s, 2) == 0;
+    const bool is_extreme = any_below(s, 2) == 0;
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned k = 0; k < 3; k++) {
+            const uint32_t any = is_extreme ? any_below(s, 2) * 0xFF00U : any_below(s, 0xFF01);
+            corners[i].rgb_q8[k] = is_even && i > 0 ? corners[0].rgb_q8[k] : (uint16_t)any;
+        }
+    }
+}
+
+static void expect_texels(uint64_t seed, el_shading shading, bool with_depth)
 {
     uint32_t compared = 0;
     for (seeded s = seeded_from(seed); s.round < PART_OF(4000U); s.round++) {
         const el_texture texture = any_texture(&s);
-        const el_surface surface = {.shading = EL_SHADE_TEXTURED,
+        const el_surface surface = {.shading = shading,
                                     .depth = with_depth,
+                                    .dither = any_below(&s, 2) == 0,
                                     .uv_error_log2 = (uint8_t)any_between(&s, 1, 5),
                                     .texture = &texture};
         el_corner corners[3];
         any_corners(&s, &texture, corners);
+        any_light(&s, corners);
         any_depth(&s);
         memcpy(depth, before, sizeof depth);
         for (uint32_t i = 0; i < ROWS * SIZE; i++) {
@@ -116,7 +154,7 @@ static void expect_texels(uint64_t seed, bool with_depth)
                 if (reference_covers(corners, x, walked.y) && (!with_depth || before[at] != 0)) {
                     el_sample sample;
                     el_triangle_sample(&walked, x, SIZE, &sample);
-                    expected = texel_at(&texture, &sample);
+                    expected = pixel_at(&surface, &sample, (uint32_t)x, (uint32_t)walked.y);
                     compared++;
                 }
                 if (colour[at] != expected) {
@@ -131,12 +169,22 @@ static void expect_texels(uint64_t seed, bool with_depth)
 
 static void test_texels_are_as_one_at_a_time(void)
 {
-    expect_texels(1, false);
+    expect_texels(1, EL_SHADE_TEXTURED, false);
 }
 
 static void test_texels_that_are_seen_are_as_one_at_a_time(void)
 {
-    expect_texels(2, true);
+    expect_texels(2, EL_SHADE_TEXTURED, true);
+}
+
+static void test_lit_texels_are_as_one_at_a_time(void)
+{
+    expect_texels(4, EL_SHADE_TEXTURED_GOURAUD, false);
+}
+
+static void test_lit_texels_that_are_seen_are_as_one_at_a_time(void)
+{
+    expect_texels(5, EL_SHADE_TEXTURED_GOURAUD, true);
 }
 
 int main(void)
@@ -148,5 +196,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_texels_are_as_one_at_a_time);
     RUN_TEST(test_texels_that_are_seen_are_as_one_at_a_time);
+    RUN_TEST(test_lit_texels_are_as_one_at_a_time);
+    RUN_TEST(test_lit_texels_that_are_seen_are_as_one_at_a_time);
     return UNITY_END();
 }

@@ -12,11 +12,36 @@
 extern "C" {
 #endif
 
+/* The order of a block's pixels, by row and column. */
+static const _Alignas(4) uint8_t el_dither_order[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+
 /* The threshold of pixel (x, y) as a fraction of a level, Q16: (2 k + 1) / 32 for k = 0..15. */
 static inline uint32_t el_dither_threshold_q16(uint32_t x, uint32_t y)
 {
-    static const uint8_t order[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    return ((uint32_t)order[y & 3U][x & 3U] << 12) + 2048U;
+    return ((uint32_t)el_dither_order[y & 3U][x & 3U] << 12) + 2048U;
+}
+
+/* The thresholds of a row from a pixel on, a byte each, the next one in the second; they repeat. */
+typedef struct el_dither_row {
+    uint32_t next;
+} el_dither_row;
+
+static inline el_dither_row el_dither_row_at(uint32_t x, uint32_t y)
+{
+    const uint8_t *const order = el_dither_order[y & 3U];
+    const uint32_t all =
+        (uint32_t)order[0] | (uint32_t)order[1] << 8 | (uint32_t)order[2] << 16 | (uint32_t)order[3] << 24;
+    const unsigned turn = (unsigned)((x - 1U) & 3U) * 8U;
+    const uint32_t q8 = all * 16U + 0x08080808U;
+    return (el_dither_row){.next = q8 >> turn | q8 << (-turn & 31U)};
+}
+
+/* Of the next pixel, as el_dither_threshold_q16 has it. */
+static inline uint32_t el_dither_row_next_q16(el_dither_row *row)
+{
+    const uint32_t threshold_q16 = row->next & 0xFF00U;
+    row->next = row->next >> 8 | row->next << 24;
+    return threshold_q16;
 }
 
 /* A value, 0..1 in Q16 (65536 is full), as one of `levels` + 1 levels, 0..levels. levels <= 255. */

@@ -171,6 +171,21 @@ static inline uint32_t el_product_near_u32(uint32_t a, uint32_t b)
 #endif
 }
 
+/* The same of numbers with signs. */
+static inline int32_t el_product_near_i32(int32_t a, int32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* |upper * lower| <= 2^15 (2^16 - 1). */
+    const int32_t a_high = a >> 16;
+    const int32_t b_high = b >> 16;
+    const int32_t a_low = (int32_t)((uint32_t)a & 0xFFFFU);
+    const int32_t b_low = (int32_t)((uint32_t)b & 0xFFFFU);
+    return a_high * b_high + ((a_high * b_low) >> 16) + ((a_low * b_high) >> 16);
+#else
+    return (int32_t)(((int64_t)a * b) >> 32);
+#endif
+}
+
 /* floor(a * b / 2^16), b < 2^16. */
 static inline uint32_t el_product_high_u16(uint32_t a, uint32_t b)
 {

@@ -1,86 +1,90 @@
 #include "raster/depth_row.h"
 
 #include "base/fill.h"
-#include "base/fixed.h"
+#include "base/options.h"
 
-enum {
-    BLOCK = 8,    /* pixels of which it is asked at once whether all are empty */
-    COMPARED = 16 /* pixels that are compared before it is asked again */
-};
+/* Of several steps along a row compilers make products and sums, for which there are no registers. What they know nothing of
+ * stays a step. */
+#if defined(__thumb__) || defined(__riscv)
+#define KEEP_STEP(x) __asm__("" : "+r"(x))
+#else
+#define KEEP_STEP(x) ((void)0)
+#endif
 
-void el_depth_row_begin(el_depth_row *row, uint16_t *depth, uint32_t count, uint64_t z, uint64_t step)
+enum { BLOCK = EL_DEPTH_BLOCK };
+
+/* Whether each of a block's depths is beyond `far`, as far as that is seen at once: in the bits that all of them have, which
+ * are a depth that none is nearer than. What is empty, or far behind, has many of them. */
+static EL_SPECIALISED bool is_beyond(const uint16_t *block, uint32_t far)
 {
-    row->z = z;
-    row->step = step;
-    row->next = depth;
-    row->end = depth + count;
-    /* Linear, so no pixel is farther than both ends; count - 1 < 2^16. */
-    const uint64_t last = z + el_multiply_u16(step, count - 1U);
-    row->never_far = (uint32_t)(z >> 32) < EL_DEPTH_EMPTY && (uint32_t)(last >> 32) < EL_DEPTH_EMPTY;
+    const el_word *const words = (const el_word *)(const void *)block;
+    const uint32_t common = words[0] & words[1] & words[2] & words[3];
+    return (common & common >> 16) > far;
 }
 
-/* How many of the next pixels are empty, in whole blocks. Where they begin between two words, the first is left to be
- * compared. */
-static uint32_t empty_ahead(const el_depth_row *row)
+#if !defined(__ARM_ARCH_6M__)
+static EL_SPECIALISED uint64_t stepped(uint64_t z, uint64_t step)
 {
-    const uint16_t *at = row->next;
-    if (((uintptr_t)at & 2U) != 0 || !row->never_far) {
-        return 0;
-    }
-    while (row->end - at >= BLOCK) {
-        const el_word *const words = (const el_word *)(const void *)at;
-        if ((words[0] & words[1] & words[2] & words[3]) != 0xFFFFFFFFU) {
-            break;
-        }
-        at += BLOCK;
-    }
-    return (uint32_t)(at - row->next);
+    const uint64_t next = z + step;
+    uint32_t upper = (uint32_t)(next >> 32);
+    KEEP_STEP(upper);
+    return (uint64_t)upper << 32 | (uint32_t)next;
 }
+#endif
 
-/* The next pixels up to `end`, one at least. */
-static void write_all(el_depth_row *row, const uint16_t *end)
+/* Writes a block's depths from z on. Returns the next pixel's. */
+static EL_SPECIALISED uint64_t write_block(uint16_t *block, uint64_t z, uint64_t step)
 {
-    uint64_t z = row->z;
-    const uint64_t step = row->step;
-    uint16_t *depth = row->next;
-    /* As many as a block has. */
+#if defined(__ARM_ARCH_6M__)
+    /* No registers for two words, and none that the two halves of a number could be taken apart in. */
 #pragma GCC unroll 8
-    do {
-        *depth++ = (uint16_t)(z >> 32);
+    for (unsigned i = 0; i < BLOCK; i++) {
+        block[i] = (uint16_t)(z >> 32);
         z += step;
-    } while (depth != end);
-    row->z = z;
-    row->next = depth;
-}
-
-/* The next pixels up to `end`, as far as they are nearer. Returns whether all are. */
-static bool write_nearer(el_depth_row *row, const uint16_t *end)
-{
-    uint64_t z = row->z;
-    const uint64_t step = row->step;
-    uint16_t *depth = row->next;
-    while (depth != end && (uint32_t)(z >> 32) < *depth) {
-        *depth++ = (uint16_t)(z >> 32);
-        z += step;
+        KEEP_STEP(z);
     }
-    row->z = z;
-    row->next = depth;
-    return depth == end;
+#else
+    el_word *const words = (el_word *)(void *)block;
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < BLOCK / 2; i++) {
+        const uint32_t first = (uint32_t)(z >> 32);
+        z = stepped(z, step);
+        words[i] = first | (uint32_t)(z >> 32) << 16;
+        z = stepped(z, step);
+    }
+#endif
+    return z;
 }
 
 uint32_t el_depth_row_take(el_depth_row *row)
 {
     const uint16_t *const begin = row->next;
-    /* To a word's beginning; then what is empty has nothing to be compared with, and what is not is compared. */
-    const uint16_t *end = begin != row->end && ((uintptr_t)begin & 2U) != 0 ? begin + 1 : begin;
-    while (write_nearer(row, end) && end != row->end) {
-        const uint32_t empty = empty_ahead(row);
-        if (empty != 0) {
-            write_all(row, row->next + empty);
+    const uint16_t *const end = row->end;
+    const uint64_t step = row->step;
+    const uint32_t farther = row->farther;
+    uint16_t *depth = row->next;
+    uint64_t z = row->z;
+    while (depth != end) {
+        /* To where a word begins, or a block further. */
+        const uint16_t *compared = depth + 1;
+        if (((uintptr_t)depth & 2U) == 0) {
+            while (end - depth >= BLOCK && is_beyond(depth, (uint32_t)(z >> 32) + farther)) {
+                z = write_block(depth, z, step);
+                depth += BLOCK;
+            }
+            compared = end - depth > BLOCK ? depth + BLOCK : end;
         }
-        end = row->end - row->next > COMPARED ? row->next + COMPARED : row->end;
+        while (depth != compared && (uint32_t)(z >> 32) < *depth) {
+            *depth++ = (uint16_t)(z >> 32);
+            z += step;
+        }
+        if (depth != compared) {
+            break;
+        }
     }
-    return (uint32_t)(row->next - begin);
+    row->z = z;
+    row->next = depth;
+    return (uint32_t)(depth - begin);
 }
 
 uint32_t el_depth_row_skip(el_depth_row *row)

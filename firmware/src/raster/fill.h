@@ -176,7 +176,8 @@ static EL_SPECIALISED bool el_passes(const el_values *values, uint16_t *depth, u
  * by the smallest threshold. */
 static EL_SPECIALISED uint32_t el_fraction_q16(uint32_t plus_half_q24)
 {
-    return (uint32_t)(((int32_t)(plus_half_q24 >> 16) - 0x80) * 257 >> 8);
+    const int32_t colour_q16 = (int32_t)(plus_half_q24 >> 16) - 0x80;
+    return (uint32_t)(colour_q16 + (colour_q16 >> 8)); /* times 257 / 256 */
 }
 
 #endif

@@ -3,139 +3,70 @@
 #include "base/fixed.h"
 #include "raster/depth_row.h"
 #include "raster/fill.h"
-#include "raster/texel.h"
+#include "raster/texel_row.h"
 #include "raster/texture_walk.h"
 
 #if !EL_SMALL_CODE
-/* Both coordinates in one number of 64 bits, which one addition steps. Its upper word has u at the top, so that what runs
- * over is what repeats, u's fraction of 16 bits, and v in what is left below, whose fraction is in the lower word:
- *
- *     | u | fraction of u | v, from the middle of its field | fraction of v | 0 |
- *
- * v has a field of 16 - width_log2 bits. If those are two more than a texture's height has, and v begins in their middle, it
- * is in the third quarter there; EL_MAX_PIECE pixels of less than a 256th of the field each lead by less than a quarter up
- * or down, so it never runs over into u, where a single unit shows at a texel's edge (test_texels). Turned left by u's bits,
- * the upper word ends in the index of a texel; by one bit more, in twice that, which is its offset. */
-typedef struct packing {
-    uint32_t mask;             /* of an offset, in bytes */
-    unsigned turn;             /* to the right, 0 to 31 */
-    unsigned u_up;             /* from Q16 to the top */
-    uint32_t v_mask, v_middle; /* Q16 */
-    uint32_t v_step_most;      /* Q16: v's step must be less; 0 where no step is small enough */
-} packing;
-
-static packing packing_of(const el_texture *texture)
-{
-    const unsigned width_log2 = texture->width_log2;
-    const unsigned height_log2 = texture->height_log2;
-    return (packing){
-        .mask = ((1U << (width_log2 + height_log2)) - 1U) << 1,
-        .turn = 31U - width_log2,
-        .u_up = 16U - width_log2,
-        .v_mask = (1U << (16U + height_log2)) - 1U,
-        .v_middle = 0x80000000U >> width_log2,
-        .v_step_most = width_log2 + height_log2 <= 14U ? 1U << (24U - width_log2) : 0U,
-    };
-}
-
 /* What the pixels of a triangle are drawn with. */
 typedef struct brush {
-    el_texel_source source;
-    packing packing;
+    el_texels texels;
     el_texture_walk walk;
     el_slopes slopes;
     uint32_t y;
 } brush;
 
-/* Draws `count` pixels of the walk's piece, after those that are `skipped`; the first of them is at column x. */
-typedef void draw_pixels(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count);
-
-static bool can_pack(const brush *b, unsigned kind)
-{
-    return (kind & EL_FILL_COLOURS) == 0 &&
-           (uint32_t)b->walk.v.step_q16 + b->packing.v_step_most < 2U * b->packing.v_step_most;
-}
-
-/* A call per piece costs a tenth of the piece where registers are many; on Armv6-M less than what must be moved away. */
-#if defined(__ARM_ARCH_6M__)
-#define EACH_PIECE __attribute__((noinline))
-#else
-#define EACH_PIECE EL_SPECIALISED
-#endif
-
-/* Of nothing but texels, where they can be packed. */
-static EACH_PIECE void draw_packed(const brush *b, uint16_t *colour, uint32_t skipped, uint32_t count)
-{
-    const packing p = b->packing;
-    const el_texture_axis *const u = &b->walk.u;
-    const el_texture_axis *const v = &b->walk.v;
-    const uint8_t *const texels = (const uint8_t *)b->source.texels;
-    const uint32_t v_q16 = ((uint32_t)v->q16 & p.v_mask) + p.v_middle;
-    const uint32_t upper = ((uint32_t)u->q16 << p.u_up) + (v_q16 >> 16);
-    const uint32_t upper_step = ((uint32_t)u->step_q16 << p.u_up) + (uint32_t)(v->step_q16 >> 16);
-    const uint64_t step = (uint64_t)upper_step << 32 | (uint32_t)v->step_q16 << 16;
-    uint64_t at = (uint64_t)upper << 32 | v_q16 << 16;
-    if (skipped != 0) {
-        at += el_multiply_u16(step, skipped);
-    }
-    const uint16_t *const end = colour + count;
-    /* By twos: a piece has a dozen pixels, and what a longer loop needs to begin costs more than it saves. */
-#pragma GCC unroll 2
-    do {
-        const uint32_t word = (uint32_t)(at >> 32);
-        const uint32_t offset = (word >> p.turn | word << (-p.turn & 31U)) & p.mask;
-        *colour++ = *(const uint16_t *)(const void *)(texels + offset);
-        at += step;
-    } while (colour != end);
-}
-
-/* Of any texture and step, with light or without. */
-static EL_SPECIALISED void draw_any(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped, uint32_t count,
-                                    unsigned kind)
-{
-    const el_texel_source source = b->source;
-    const el_values step = b->slopes.per_column;
-    const uint32_t u_step_q16 = (uint32_t)b->walk.u.step_q16;
-    const uint32_t v_step_q16 = (uint32_t)b->walk.v.step_q16;
-    const uint32_t y = b->y;
-    uint32_t u_q16 = (uint32_t)b->walk.u.q16 + u_step_q16 * skipped;
-    uint32_t v_q16 = (uint32_t)b->walk.v.q16 + v_step_q16 * skipped;
-    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
-    for (const uint32_t x_end = x + count; x < x_end; x++) {
-        const uint32_t texel = el_texel_at(&source, u_q16, v_q16);
-        *colour++ = (kind & EL_FILL_COLOURS) != 0 ? el_modulate(texel, &light, el_dither_threshold_q16(x, y), kind)
-                                                  : (uint16_t)texel;
-        el_values_add(&light, &step, kind);
-        u_q16 += u_step_q16;
-        v_q16 += v_step_q16;
-    }
-}
-
-static EL_SPECIALISED void draw_part(const brush *b, uint16_t *row, uint32_t x, uint32_t skipped, uint32_t count,
-                                     unsigned kind, draw_pixels *draw)
-{
-    if (can_pack(b, kind)) {
-        draw_packed(b, row + x, skipped, count);
-    } else {
-        draw(b, row + x, x, skipped, count);
-    }
-}
-
 /* The last pixel of a span, where its last knot is. */
-static EL_SPECIALISED void draw_last(brush *b, uint16_t *row, uint32_t x, unsigned kind, draw_pixels *draw)
+static EL_SPECIALISED void draw_last(brush *b, uint16_t *colour)
 {
     el_texture_walk_last(&b->walk);
-    if ((kind & EL_FILL_COLOURS) == 0) {
-        row[x] = (uint16_t)el_texel_at(&b->source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
-    } else {
-        draw(b, row + x, x, 0, 1);
+    *colour = (uint16_t)el_texel_at(&b->texels.source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
+}
+
+/* Lights the texels of pixels [x, x_end), one at least. They were drawn before, so that neither loop has to keep what the
+ * other needs: together they have more than any core has registers, and pieces are shorter than what light goes along. */
+static EL_SPECIALISED void light_any(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
+{
+    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
+    const el_values step = b->slopes.per_column;
+    el_dither_row thresholds = el_dither_row_at(x, b->y);
+    uint16_t *pixel = row + x;
+    const uint16_t *const end = row + x_end;
+    if ((step.red | step.green | step.blue) == 0) {
+        /* A surface in one colour, or one that faces the light everywhere alike. */
+        do {
+            *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        } while (++pixel != end);
+        return;
+    }
+    do {
+        *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        el_values_add(&light, &step, kind);
+    } while (++pixel != end);
+}
+
+static __attribute__((noinline)) void light_plain(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
+{
+    light_any(b, row, x, x_end, EL_FILL_COLOURS);
+}
+
+static __attribute__((noinline)) void light_dithered(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
+{
+    light_any(b, row, x, x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
+}
+
+static EL_SPECIALISED void light(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
+{
+    if ((kind & EL_FILL_DITHER) != 0) {
+        light_dithered(b, row, x, x_end);
+    } else if ((kind & EL_FILL_COLOURS) != 0) {
+        light_plain(b, row, x, x_end);
     }
 }
 
 /* A span of which the first `seen` pixels are seen, and then what `depth` says, in pieces along which texture coordinates
  * are linear: the same pieces as if all were seen, up to the last pixel that is. */
 static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
-                                     uint32_t seen, el_depth_row *depth, unsigned kind, draw_pixels *draw)
+                                     uint32_t seen, el_depth_row *depth, unsigned kind)
 {
     /* A run of pixels that are seen; none is left of it. */
     uint32_t run = x;
@@ -147,64 +78,64 @@ static EL_SPECIALISED void draw_seen(brush *b, const el_perspective *planes, uin
         }
         run_end = run + el_depth_row_take(depth);
     }
+    uint32_t run_begin = run;
     const uint32_t last = x_end - 1U;
     uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
     while (x < last && run < x_end) {
         const uint32_t piece_end = x + el_texture_walk_piece(&b->walk, at, last - x);
+        uint32_t begun = x;
         while (run < piece_end) {
             const uint32_t end = run_end < piece_end ? run_end : piece_end;
-            draw_part(b, row, run, run - x, end - run, kind, draw);
+            el_texture_walk_skip(&b->walk, run - begun);
+            el_texture_walk_draw_part(&b->walk, &b->texels, row + run, end - run);
+            begun = run;
             run = end;
             if (run == run_end && run < x_end) {
+                light(b, row, run_begin, run, kind);
                 run += el_depth_row_skip(depth);
                 run_end = run + el_depth_row_take(depth);
+                run_begin = run;
             }
         }
         at += piece_end - x;
         x = piece_end;
     }
     if (run < x_end) {
-        draw_last(b, row, last, kind, draw);
+        draw_last(b, row + last);
+        light(b, row, run_begin, x_end, kind);
     }
 }
 
 /* A span all of which is seen. */
 static EL_SPECIALISED void draw_all(brush *b, const el_perspective *planes, uint16_t *row, uint32_t x, uint32_t x_end,
-                                    unsigned kind, draw_pixels *draw)
+                                    unsigned kind)
 {
     const uint32_t last = x_end - 1U;
-    uint32_t at = 0;
     el_texture_walk_begin(&b->walk, planes, x, x_end - x);
-    while (x < last) {
-        const uint32_t length = el_texture_walk_piece(&b->walk, at, last - x);
-        draw_part(b, row, x, 0, length, kind, draw);
-        x += length;
-        at += length;
-    }
-    draw_last(b, row, last, kind, draw);
+    el_texture_walk_draw(&b->walk, &b->texels, row + x, last - x);
+    draw_last(b, row + last);
+    light(b, row, x, x_end, kind);
 }
 
 static EL_SPECIALISED void draw_tested(brush *b, const el_perspective *planes, uint16_t *row, uint16_t *depth_row,
-                                       uint32_t x, uint32_t x_end, unsigned kind, draw_pixels *draw)
+                                       uint32_t x, uint32_t x_end, unsigned kind)
 {
     el_depth_row depth;
     el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                        b->slopes.per_column.z);
     const uint32_t seen = el_depth_row_take(&depth);
     if (seen == x_end - x) {
-        draw_all(b, planes, row, x, x_end, kind, draw);
+        draw_all(b, planes, row, x, x_end, kind);
     } else {
-        draw_seen(b, planes, row, x, x_end, seen, &depth, kind, draw);
+        draw_seen(b, planes, row, x, x_end, seen, &depth, kind);
     }
 }
 
-static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind,
-                                   draw_pixels *draw)
+static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
     brush b;
-    b.source = el_texel_source_of(triangle->surface.texture);
-    b.packing = packing_of(triangle->surface.texture);
+    b.texels = el_texels_of(triangle->surface.texture);
     b.y = (uint32_t)triangle->y;
     el_texture_walk_start(&b.walk, triangle);
     const el_perspective *const planes = &triangle->perspective;
@@ -219,9 +150,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
         if (x >= x_end) {
             el_count_empty(stats);
         } else if ((kind & EL_FILL_DEPTH) != 0) {
-            draw_tested(&b, planes, row, cursor.row, x, x_end, kind, draw);
+            draw_tested(&b, planes, row, cursor.row, x, x_end, kind);
         } else {
-            draw_all(&b, planes, row, x, x_end, kind, draw);
+            draw_all(&b, planes, row, x, x_end, kind);
         }
         el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
         el_perspective_next_row(&triangle->perspective);
@@ -232,34 +163,24 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
     return rows;
 }
 
-/* A function of its own for the pixels of each kind, and for each kind with and without depth. */
-#define DRAW(name, kind)                                                                                               \
-    static __attribute__((noinline)) void draw_##name(const brush *b, uint16_t *colour, uint32_t x, uint32_t skipped,  \
-                                                      uint32_t count)                                                  \
-    {                                                                                                                  \
-        draw_any(b, colour, x, skipped, count, (kind));                                                                \
-    }
-DRAW(texels, EL_FILL_TEXTURE)
-DRAW(lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)
-DRAW(dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)
-
+/* A function of its own for each kind, and for each with and without depth. */
 #define FILLS(DO)                                                                                                      \
-    DO(textured, texels, EL_FILL_TEXTURE)                                                                              \
-    DO(textured_depth, texels, EL_FILL_TEXTURE | EL_FILL_DEPTH)                                                        \
-    DO(lit, lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)                                                                    \
-    DO(lit_depth, lit, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DEPTH)                                              \
-    DO(lit_dithered, dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)                                     \
-    DO(lit_dithered_depth, dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
+    DO(textured, EL_FILL_TEXTURE)                                                                                      \
+    DO(textured_depth, EL_FILL_TEXTURE | EL_FILL_DEPTH)                                                                \
+    DO(lit, EL_FILL_TEXTURE | EL_FILL_COLOURS)                                                                         \
+    DO(lit_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DEPTH)                                                   \
+    DO(lit_dithered, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER)                                               \
+    DO(lit_dithered_depth, EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER | EL_FILL_DEPTH)
 
-#define DEFINE(name, pixels, kind)                                                                                     \
+#define DEFINE(name, kind)                                                                                             \
     static __attribute__((noinline))                                                                                   \
     int32_t fill_##name(el_triangle *triangle, const el_target *target, el_stats *stats)                               \
     {                                                                                                                  \
-        return fill(triangle, target, stats, (kind), draw_##pixels);                                                   \
+        return fill(triangle, target, stats, (kind));                                                                  \
     }
 FILLS(DEFINE)
 
-#define CALL(name, pixels, kind)                                                                                       \
+#define CALL(name, kind)                                                                                               \
     if (asked == (kind)) {                                                                                             \
         return fill_##name(triangle, target, stats);                                                                   \
     }

@@ -2,11 +2,13 @@
 
 #include "base/divide.h"
 #include "base/fixed.h"
+#include "raster/texel_row.h"
 
 enum {
     LENGTHS = 14,
     STEEP_LOG2 = 27, /* gradients of 2^27 per pixel and more, of 2^31: a knot at every pixel */
     NEVER_Q8 = 1 << 20,
+    LEAST_UPPER = 1 << 11, /* of |J|, in units of 2^32, that is looked at closer */
     /* log2(16/15): a sixteenth of the error is left for rounding. Knots are exact to 3 * 2^-16 texel and steps are cut off
      * at 2^-16, which adds up to 2^-10 in the longest piece; at the smallest error, 1/32, 2^-9 is left. */
     ROUNDING_RESERVE_Q8 = 24
@@ -63,6 +65,12 @@ static inline uint32_t upper_word(uint64_t x, unsigned shift)
     return (uint32_t)(x >> 32) << shift | (uint32_t)x >> 1 >> (31U - shift);
 }
 
+/* log2 rounded up of a number with `power` bits behind its first one, whose leading bits are those of `normalised`. */
+static inline int32_t log2_ceil_of_normalised_q8(uint32_t normalised, int32_t power)
+{
+    return power * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+}
+
 /* log2 x rounded up; x >= 1. *near is for leading_zeros. */
 static int32_t log2_ceil_q8(uint64_t x, uint32_t *near)
 {
@@ -71,7 +79,7 @@ static int32_t log2_ceil_q8(uint64_t x, uint32_t *near)
     const unsigned leading = leading_zeros(word, *near);
     *near = leading;
     const uint32_t normalised = upper != 0 ? upper_word(x, leading) : word << leading;
-    return ((upper != 0 ? 63 : 31) - (int32_t)leading) * 256 + log2_q8[((normalised >> 24) & 127U) + 1U] + 1;
+    return log2_ceil_of_normalised_q8(normalised, (upper != 0 ? 63 : 31) - (int32_t)leading);
 }
 
 /* base + 2^shift U / W in Q16 texels, off by less than 3 units; down is 30 - shift. |U| <= W < 2^31, so with both moved up
@@ -85,15 +93,20 @@ static inline int32_t knot(uint64_t u_q32, unsigned w_shift, uint32_t reciprocal
     return (int32_t)((uint32_t)base_q16 + (uint32_t)(ratio_q30 >> down));
 }
 
-/* W's logarithm and reciprocal so many pixels from the span's first. */
-static EACH_PIECE void find_w(el_texture_walk *walk, uint32_t pixels)
+/* The logarithm and reciprocal of this W, of some pixel. */
+static inline void find_of_w(el_texture_walk *walk, uint64_t w)
 {
-    const uint64_t w = walk->w + el_multiply_u16(walk->w_dx, pixels);
     const unsigned shift = leading_zeros((uint32_t)(w >> 32), walk->w_shift);
     const uint32_t normalised = upper_word(w, shift);
     walk->w_shift = shift;
     walk->w_log2_q8 = log2_of_normalised_q8(normalised, shift);
     walk->reciprocal = el_reciprocal_near(normalised);
+}
+
+/* The same so many pixels from the span's first. */
+static EACH_PIECE void find_w(el_texture_walk *walk, uint32_t pixels)
+{
+    find_of_w(walk, walk->w + el_multiply_u16(walk->w_dx, pixels));
 }
 
 static inline void find_first_knot(el_texture_axis *axis, unsigned w_shift, uint32_t reciprocal)
@@ -115,18 +128,54 @@ static EACH_PIECE void find_knot(el_texture_axis *axis, const el_texture_walk *w
     axis->step_q16 = el_multiply_high_i32_u32(to_q16 - from_q16, step_reciprocal);
 }
 
+static inline int32_t step_q4_of(const el_texture_axis *axis)
+{
+    return (int32_t)((int64_t)axis->dx >> 28);
+}
+
 /* log2 of |J| times 2^shift, J = U' W - U W' with 4 bits of fraction, rounded up. Gradients are below 2^27, so with
  * 4 bits of fraction below 2^31, and a product below 2^62. Cutting off the rest of the gradients' fraction moves J by less
  * than W + |U| <= 2 W, cutting off that of U and W by less than |U'| + |W'|. */
-static int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+static EL_SELDOM int32_t curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
 {
     const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
-    const int32_t step_q4 = (int32_t)((int64_t)axis->dx >> 28);
+    const int32_t step_q4 = step_q4_of(axis);
     const int64_t j_q4 = el_product_i32(step_q4, w) - el_product_i32(value, w_step_q4);
     const uint64_t cut_off_q4 = el_abs_u64(step_q4) + el_abs_u64(w_step_q4) + 2U * ((uint64_t)(uint32_t)w + 1U);
     const uint64_t bound_q4 = el_abs_u64(j_q4) + cut_off_q4;
     return log2_ceil_q8(bound_q4, &axis->curvature_shift) + (30 - (int32_t)axis->down) * 256;
 }
+
+#if EL_SMALL_CODE
+static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+{
+    return curvature_q8(axis, w, w_step_q4);
+}
+#else
+/* The same, mostly from upper words: they tell |J| to 3 * 2^32, and what is cut off is at most 2 * 2^32. So, in units of
+ * 2^32, the number whose logarithm is asked for is at least the magnitude less 3, and less than 8 more. The logarithm looks
+ * at eight bits, which mostly are the same from there to there. */
+static inline int32_t find_curvature_q8(el_texture_axis *axis, int32_t w, int32_t w_step_q4)
+{
+    const int32_t value = (int32_t)(uint32_t)(axis->value >> 32);
+    const int32_t step_q4 = step_q4_of(axis);
+    /* Either is within 2^30 + 2. Where their difference runs over, the magnitude is within 3 of 2^31, and its bits are those
+     * that do not tell. */
+    const uint32_t upper = (uint32_t)el_product_near_i32(step_q4, w) - (uint32_t)el_product_near_i32(value, w_step_q4);
+    const uint32_t magnitude = upper >> 31 != 0 ? 0U - upper : upper;
+    if (magnitude < LEAST_UPPER) {
+        return curvature_q8(axis, w, w_step_q4);
+    }
+    const uint32_t least = magnitude - 3U;
+    const unsigned leading = leading_zeros(least, axis->curvature_shift); /* 21 at most */
+    const uint32_t normalised = least << leading;
+    if ((normalised & 0xFFFFFFU) >= (1U << 24) - (7U << leading)) {
+        return curvature_q8(axis, w, w_step_q4);
+    }
+    axis->curvature_shift = leading;
+    return log2_ceil_of_normalised_q8(normalised, 63 - (int32_t)leading + 30 - (int32_t)axis->down);
+}
+#endif
 
 static bool is_steep(const el_plane *plane)
 {
@@ -169,7 +218,8 @@ static void find_limit(el_texture_walk *walk)
 {
     const int32_t w = (int32_t)(uint32_t)(walk->w >> 32);
     const int32_t w_step_q4 = (int32_t)((int64_t)walk->w_dx >> 28);
-    const int32_t curvature = el_max_i32(curvature_q8(&walk->u, w, w_step_q4), curvature_q8(&walk->v, w, w_step_q4));
+    const int32_t curvature =
+        el_max_i32(find_curvature_q8(&walk->u, w, w_step_q4), find_curvature_q8(&walk->v, w, w_step_q4));
     const int32_t three = curvature + walk->without_j_q8;
     /* A third, rounded up: the constant keeps the dividend positive, 26,138 is the most and -6,374 the least that it can
      * be without, and for less than 2^16 the product is the quotient. */
@@ -199,7 +249,8 @@ static void set_length(el_texture_walk *walk, uint32_t i)
     walk->more_q8 = INT32_MAX;
     walk->enough_q8 = INT32_MIN;
     if ((int64_t)walk->w_dx < 0) {
-        walk->enough_q8 = walk->limit_q8 + length_q8[i];
+        /* Where it was not enough for more than a pixel, it never is again. */
+        walk->enough_q8 = i > 0 ? walk->limit_q8 + length_q8[i] : INT32_MIN;
     } else if (i + 1U < LENGTHS) {
         walk->more_q8 = walk->limit_q8 + length_q8[i + 1U];
     }
@@ -217,15 +268,21 @@ static inline void find_first_length(el_texture_walk *walk)
         i--;
     }
     walk->first_length = i;
-    set_length(walk, (int64_t)walk->w_dx < 0 && i == 0 ? 1 : i);
+    set_length(walk, i);
 }
 #endif
 
+/* A plane in column x of its row. */
+static EACH_PIECE uint64_t plane_at(const el_plane *plane, uint32_t x)
+{
+    return plane->value + el_multiply_u16(plane->dx, x);
+}
+
 void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, uint32_t x, uint32_t pixels)
 {
-    walk->w = planes->w.value + el_multiply_u16(walk->w_dx, x) + EL_W_MARGIN_Q32;
-    walk->u.value = planes->u.value + el_multiply_u16(walk->u.dx, x);
-    walk->v.value = planes->v.value + el_multiply_u16(walk->v.dx, x);
+    walk->w = plane_at(&planes->w, x) + EL_W_MARGIN_Q32;
+    walk->u.value = plane_at(&planes->u, x);
+    walk->v.value = plane_at(&planes->v, x);
     find_w(walk, 0);
     find_first_knot(&walk->u, walk->w_shift, walk->reciprocal);
     find_first_knot(&walk->v, walk->w_shift, walk->reciprocal);
@@ -304,7 +361,7 @@ static __attribute__((noinline)) uint32_t shorten(el_texture_walk *walk, uint32_
         length = lengths[i] < most ? lengths[i] : most;
         find_w(walk, at + length);
     } while (i > 0 && walk->w_log2_q8 < walk->limit_q8 + length_q8[i]);
-    set_length(walk, i > 0 ? i : 1);
+    set_length(walk, i);
     return length;
 }
 
@@ -322,7 +379,7 @@ static inline uint32_t find_end(el_texture_walk *walk, uint32_t at, uint32_t mos
 }
 #endif
 
-uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+static EL_SPECIALISED uint32_t make_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
 {
     const uint32_t length = find_end(walk, at, most);
     const uint32_t step_reciprocal = reciprocal_of(length);
@@ -330,3 +387,101 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
     find_knot(&walk->v, walk, at + length, step_reciprocal);
     return length;
 }
+
+uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most)
+{
+    return make_piece(walk, at, most);
+}
+
+#if !EL_SMALL_CODE
+/* U or V from pixel to pixel. */
+typedef struct steps {
+    uint64_t value, dx;
+    unsigned down;
+    int32_t base_q16;
+} steps;
+
+static inline steps steps_of(const el_texture_axis *axis, uint32_t at)
+{
+    return (steps){
+        .value = axis->value + el_multiply_u16(axis->dx, at),
+        .dx = axis->dx,
+        .down = axis->down,
+        .base_q16 = axis->base_q16,
+    };
+}
+
+static inline int32_t next_knot(steps *s, const el_texture_walk *walk)
+{
+    s->value += s->dx;
+    return knot(s->value, walk->w_shift, walk->reciprocal, s->down, s->base_q16);
+}
+
+/* Pieces of one pixel, until W is enough for longer ones. */
+static __attribute__((noinline)) uint32_t draw_knots(el_texture_walk *walk, const el_texel_source *source,
+                                                     uint16_t *colour, uint32_t at, uint32_t most)
+{
+    el_texture_walk here = *walk;
+    const el_texel_source from = *source;
+    steps u = steps_of(&walk->u, at);
+    steps v = steps_of(&walk->v, at);
+    uint64_t w = walk->w + el_multiply_u16(walk->w_dx, at);
+    int32_t u_q16 = walk->u.next_q16;
+    int32_t v_q16 = walk->v.next_q16;
+    uint16_t *const begin = colour;
+    const uint16_t *const end = colour + most;
+    do {
+        *colour++ = (uint16_t)el_texel_at(&from, (uint32_t)u_q16, (uint32_t)v_q16);
+        w += here.w_dx;
+        find_of_w(&here, w);
+        u_q16 = next_knot(&u, &here);
+        v_q16 = next_knot(&v, &here);
+    } while (colour != end && here.w_log2_q8 < here.more_q8);
+    walk->w_log2_q8 = here.w_log2_q8;
+    walk->w_shift = here.w_shift;
+    walk->reciprocal = here.reciprocal;
+    walk->u.next_q16 = u_q16;
+    walk->v.next_q16 = v_q16;
+    return (uint32_t)(colour - begin);
+}
+
+static EL_SPECIALISED el_texel_row row_of(const el_texture_walk *walk, uint16_t *colour, uint32_t count)
+{
+    return (el_texel_row){
+        .u_q16 = (uint32_t)walk->u.q16,
+        .v_q16 = (uint32_t)walk->v.q16,
+        .u_step_q16 = (uint32_t)walk->u.step_q16,
+        .v_step_q16 = (uint32_t)walk->v.step_q16,
+        .colour = colour,
+        .count = count,
+    };
+}
+
+/* Makes a piece and draws it. */
+static EACH_PIECE uint32_t draw_piece(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t at,
+                                      uint32_t most)
+{
+    const uint32_t length = make_piece(walk, at, most);
+    const el_texel_row row = row_of(walk, colour, length);
+    el_draw_texels(texels, &row);
+    return length;
+}
+
+void el_texture_walk_draw(el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t pixels)
+{
+    uint32_t at = 0;
+    while (at < pixels) {
+        if (walk->pixels == 1 && walk->w_log2_q8 < walk->more_q8) {
+            at += draw_knots(walk, &texels->source, colour + at, at, pixels - at);
+        } else {
+            at += draw_piece(walk, texels, colour + at, at, pixels - at);
+        }
+    }
+}
+
+void el_texture_walk_draw_part(const el_texture_walk *walk, const el_texels *texels, uint16_t *colour, uint32_t count)
+{
+    const el_texel_row row = row_of(walk, colour, count);
+    el_draw_texels(texels, &row);
+}
+#endif

@@ -64,6 +64,24 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
  * u.q16 and v.q16 belong to its first pixel, the steps lead to the others. */
 uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most);
 
+#if !EL_SMALL_CODE
+struct el_texels;
+
+/* Makes the pieces that have the span's first `pixels` pixels, all but its last, and draws them from `colour` on. */
+void el_texture_walk_draw(el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour, uint32_t pixels);
+
+/* Draws the first `count` pixels of the piece that was made, one at least. */
+void el_texture_walk_draw_part(const el_texture_walk *walk, const struct el_texels *texels, uint16_t *colour,
+                               uint32_t count);
+#endif
+
+/* Moves the piece's beginning on by so many of its pixels. */
+static inline void el_texture_walk_skip(el_texture_walk *walk, uint32_t pixels)
+{
+    walk->u.q16 = (int32_t)((uint32_t)walk->u.q16 + (uint32_t)walk->u.step_q16 * pixels);
+    walk->v.q16 = (int32_t)((uint32_t)walk->v.q16 + (uint32_t)walk->v.step_q16 * pixels);
+}
+
 /* Makes the last pixel, which no piece has. */
 static inline void el_texture_walk_last(el_texture_walk *walk)
 {
