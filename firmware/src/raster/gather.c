@@ -9,6 +9,24 @@
 #include "base/rgb565.h"
 #include "raster/plain.h"
 
+/* n / 127, n < 2^25. */
+static inline uint32_t by_127(uint32_t n)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* Without a division: with n = 128 q + r = 127 q + (q + r), n / 127 is q + (q + r) / 127; and (q + r) is below 2^19, then
+     * below 2^13, then 192. */
+    uint32_t quotient = n >> 7;
+    uint32_t rest = quotient + (n & 127U);
+    quotient += rest >> 7;
+    rest = (rest >> 7) + (rest & 127U);
+    quotient += rest >> 7;
+    rest = (rest >> 7) + (rest & 127U);
+    return quotient + (rest + 1U >= 128U);
+#else
+    return n / 127U;
+#endif
+}
+
 /* ambient + diffuse * max(0, normal . light), 0..255 in 8.8. */
 static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool turned)
 {
@@ -20,8 +38,8 @@ static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool
     dot = turned ? -dot : dot;
     uint32_t value = (uint32_t)light->ambient << 8;
     if (dot > 0) {
-        /* diffuse * 256 * dot / (127 * 2^14), in two steps that stay below 2^31 */
-        value += (uint32_t)light->diffuse * ((uint32_t)dot >> 6) / 127U;
+        /* diffuse * 256 * dot / (127 * 2^14), in two steps that stay below 2^31: 255 * 98304 at most */
+        value += by_127((uint32_t)light->diffuse * ((uint32_t)dot >> 6));
     }
     return value > 0xFF00U ? 0xFF00U : value;
 }
