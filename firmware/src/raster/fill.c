@@ -117,6 +117,14 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     return fill_count(triangle, target, stats, asked);
 }
 
+static EL_APART void draw_any(el_triangle *triangle, const el_target *target, el_stats *stats)
+{
+    int32_t rows;
+    do {
+        rows = fill_rows(triangle, target, stats, triangle->kind);
+    } while (rows == EL_SPAN_ROWS && triangle->y < target->y_end && !el_triangle_is_done(triangle));
+}
+
 void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
 #if EL_WITH_SMALL_PLANES
@@ -133,9 +141,6 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
 #endif
     }
 #endif
-    int32_t rows;
-    do {
-        rows = fill_rows(triangle, target, stats, triangle->kind);
-    } while (rows == EL_SPAN_ROWS && triangle->y < target->y_end && !el_triangle_is_done(triangle));
+    draw_any(triangle, target, stats);
 }
 #endif

@@ -38,7 +38,7 @@ static EL_SPECIALISED span *walk(walker *w, int32_t left_step, int32_t right_ste
         w->left += left_step;
         w->right += right_step;
         at++;
-        EL_ADD_UP(at);
+        EL_SETTLE(at);
     }
     return at;
 }
