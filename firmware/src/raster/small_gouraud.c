@@ -5,6 +5,13 @@
 
 #if EL_WITH_SMALL_GOURAUD
 
+/* Armv6-M computes with eight registers, and can add from the others. */
+#if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
+#define LAY_ASIDE(value) __asm__("" : "+h"(value))
+#else
+#define LAY_ASIDE(value) ((void)(value))
+#endif
+
 enum { KIND = EL_FILL_COLOURS | EL_FILL_DEPTH };
 
 /* A row's first pixel is at most 2^BACK_LOG2 columns to the left of where the row above ended: no small triangle is wider. */
@@ -121,6 +128,9 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
         at += next->pixels;
         next++;
         if (pixel != at) {
+            LAY_ASIDE(s.per_column.red);
+            LAY_ASIDE(s.per_column.green);
+            LAY_ASIDE(s.per_column.blue);
             do {
                 const uint32_t depth = (uint32_t)(v.z >> 32);
                 if (depth < *pixel) {
