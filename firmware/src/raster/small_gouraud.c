@@ -80,10 +80,18 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
     return w.column;
 }
 
-/* `columns` to the right; 0 <= columns < 2^16. */
-static EL_SPECIALISED void move_right(el_values *v, const el_values *per_column, uint32_t columns)
+/* `columns` to the right; 0 <= columns < 2^16. `z_low`: the lower half of a column's z, settled, so that its product is added in
+ * the instruction that makes it where there is one. */
+static EL_SPECIALISED void move_right(el_values *v, const el_values *per_column, uint32_t z_low, uint32_t columns)
 {
+#if defined(EL_PRODUCTS_IN_HALVES)
+    (void)z_low;
     v->z += el_multiply_u16(per_column->z, columns);
+#else
+    v->z += (uint64_t)z_low * columns;
+    const uint32_t high = (uint32_t)(v->z >> 32) + (uint32_t)(per_column->z >> 32) * columns;
+    v->z = (uint64_t)high << 32 | (uint32_t)v->z;
+#endif
     v->red += per_column->red * columns;
     v->green += per_column->green * columns;
     v->blue += per_column->blue * columns;
@@ -120,9 +128,12 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
     el_slopes s = el_slopes_of(triangle, KIND);
     const el_values per_row = down_and_back(&s);
     el_values v = s.first;
+    uint32_t z_low = (uint32_t)s.per_column.z;
+    EL_SETTLE(z_low);
+    s.per_column.z = s.per_column.z >> 32 << 32 | z_low;
     uint32_t empty = 0;
     do {
-        move_right(&v, &s.per_column, next->columns);
+        move_right(&v, &s.per_column, z_low, next->columns);
         at += next->columns;
         uint16_t *pixel = at;
         at += next->pixels;
