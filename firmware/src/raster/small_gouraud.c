@@ -133,11 +133,11 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
     s.per_column.z = s.per_column.z >> 32 << 32 | z_low;
     uint32_t empty = 0;
     do {
-        move_right(&v, &s.per_column, z_low, next->columns);
-        at += next->columns;
+        const span row = *next++;
+        move_right(&v, &s.per_column, z_low, row.columns);
+        at += row.columns;
         uint16_t *pixel = at;
-        at += next->pixels;
-        next++;
+        at += row.pixels;
         if (pixel != at) {
             LAY_ASIDE(s.per_column.red);
             LAY_ASIDE(s.per_column.green);
