@@ -634,6 +634,57 @@ def small(core: str) -> Subject:
     return Subject(FILE, function, small_domain, small_check, own, lemmas=SMALL_LEMMAS)
 
 
+def handed_on(machine: Machine, arguments: list[Any]) -> Number:
+    """el_divide_small_q32, proven above: what is divided by what, and some quotient, below 2^27 * 2^32."""
+    scope = machine.scopes[0]
+    machine.path.prove(arguments[0].poly - scope["n"].content.poly, "the dividend is handed on", zero=True)
+    given, asked = (machine.poly(pointer.cell, "d") for pointer in (scope["divisor"].content, arguments[1]))
+    machine.path.prove(asked - given, "and the divisor", zero=True)
+    quotient = machine.path.atom("handed on", -(2**59) + 1, 2**59 - 1)
+    HANDED_ON.append(quotient)
+    return machine.exactly("uint64_t", quotient if machine.path.decide(quotient, -quotient - 1) else quotient + B * B)
+
+
+HANDED_ON: list[Poly] = []
+
+
+def digits_domain(machine: Machine) -> list[Any]:
+    HANDED_ON.clear()
+    return small_domain(machine)
+
+
+def digits_check(machine: Machine, arguments: list[Any], result: Any) -> None:
+    """The three digits' sum is the truncated quotient, and the lower ones are no larger than it says."""
+    path = machine.path
+    n, divisor = arguments[0].poly, arguments[1]
+    whole_bit, high_bit = (machine.constant(machine.unit.constants[f"EL_{name}_BIT"]) for name in ("WHOLE", "HIGH"))
+    whole, high, low = (machine.poly(result, name) for name in ("whole", "high", "low"))
+    for digit in (high, low):
+        path.prove(2**high_bit - digit, "a digit")
+        path.prove(2**high_bit + digit, "a digit")
+    total = whole * 2**whole_bit + high * 2**high_bit + low
+    if HANDED_ON:
+        path.prove(total - HANDED_ON[0], "the same", zero=True)
+        return
+    scale = 1 << path.choose(machine.poly(divisor.cell, "shift")) if is_by_digits(machine) else 1
+    negative = not path.decide(n, -n - 1)
+    d = divisor.cell.stands_for
+    backwards = machine.poly(divisor.cell, "d").interval()[1] < 0
+    quotient = -total if negative != backwards else total
+    rest = ((-n if negative else n) * B - quotient * d) * scale
+    path.prove(rest, "Q |d| <= 2^32 |n|")
+    path.prove(d * scale - 1 - rest, "2^32 |n| < (Q + 1) |d|")
+
+
+def digits(core: str) -> Subject:
+    own, contracts_of = ["el_divide_small"], {"el_divide_small_q32": handed_on}
+    if core:
+        contracts_of["el_divide_digit"] = digit
+        return Subject(FILE, "el_divide_small", digits_domain, digits_check, own, contracts_of, core=core)
+    lemmas = {"el_divide_small.high": digit_of(14)}
+    return Subject(FILE, "el_divide_small", digits_domain, digits_check, own, contracts_of, lemmas=lemmas)
+
+
 def apart_domain(machine: Machine) -> list[Any]:
     path = machine.path
     sign = path.choose(path.atom("half", 0, 1)) * 2 - 1
@@ -737,6 +788,11 @@ def test_quotients_by_small_divisors_are_exact(core: str) -> None:
     small(core).prove()
 
 
+@CORES
+def test_quotients_in_digits_are_exact(core: str) -> None:
+    digits(core).prove()
+
+
 @DIGIT_BITS
 def test_digits_are_exact(bits: int) -> None:
     digit_subject(bits).prove()
@@ -757,7 +813,8 @@ def test_the_compiler_agrees_on_small_divisors(core: str) -> None:
             machine.path.assume(machine.poly(divisor.cell, "limit") * (1 << 16) - 1 + n.poly)
         return [n, divisor]
 
-    Subject(FILE, "el_divide_small_q32", domain, modular=["el_divide_small_q32"], core=core).agree(count=100)
+    for function in ("el_divide_small_q32", "el_divide_small"):
+        Subject(FILE, function, domain, modular=["el_divide_small_q32", "el_divide_small"], core=core).agree(count=100)
 
 
 @DIGIT_BITS
@@ -770,6 +827,10 @@ def test_the_proof_of_small_divisors_can_fail() -> None:
     small("").fails_with(Fault(HEADER, "EL_SMALL_DIVISOR_BITS = 19", "EL_SMALL_DIVISOR_BITS = 20"))
     small(ARMV6M).fails_with(Fault(HEADER, "magnitude >> 16 >= divisor->limit", "magnitude >> 16 > divisor->limit"))
     small(ARMV6M).fails_with(Fault(HEADER, "(n < 0) != (divisor->d < 0)", "n < 0"))
+    digits(ARMV6M).fails_with(Fault(HEADER, "(n < 0) == (divisor->d < 0)", "n >= 0"))
+    digits("").fails_with(Fault(HEADER, "(rest - high * d) * (1 << 14)", "(rest - high * d) * (1 << 13)"))
+    digits("").fails_with(Fault(HEADER, "(1U << 17) < 1U << 18", "(1U << 18) < 1U << 19"))
+    digits(ARMV6M).fails_with(Fault(HEADER, "magnitude >> 16 < divisor->limit", "magnitude >> 16 <= divisor->limit"))
     text = "while (rest >= divisor->normalised)"
     digit_subject(16).fails_with(Fault(HEADER, text, text.replace(">=", ">")))
     digit_subject(11).fails_with(Fault(HEADER, "high : high >> 3", "high : high >> 2"))

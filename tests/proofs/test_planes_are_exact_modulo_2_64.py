@@ -23,12 +23,13 @@ units each is off by at most 1/2 and what truncation cut off, and the value by l
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pytest
 
 import contracts
+from c_source import ARMV6M
 from c_values import IntType
 from proof import (
     EVERY_PRECISION,
@@ -127,6 +128,22 @@ class Quotients:
         quotient = path.atom("Q", -(2**95), 2**95)
         self.made.append((value, quotient))
         return machine.exactly("uint64_t", quotient - path.atom("k", -(2**31), 2**31) * RING)
+
+    def digits(self, machine: Machine, arguments: list[Any]) -> Any:
+        """The contract of el_divide_small: the same in three digits."""
+        whole_bit, high_bit = (machine.constant(machine.unit.constants[f"EL_{name}_BIT"]) for name in ("WHOLE", "HIGH"))
+        made = machine.struct("el_small_quotient")
+        value, quotient = arguments[0].poly, Poly.of(0)
+        for name, bit, most in (
+            ("whole", whole_bit, 2**31 - 1),
+            ("high", high_bit, 2**high_bit),
+            ("low", 0, 2**high_bit),
+        ):
+            digit = machine.path.atom(name, -most, most)
+            machine.put(made.content[name], digit)
+            quotient += digit * 2**bit
+        self.made.append((value, quotient))
+        return made
 
 
 @dataclass(frozen=True)
@@ -527,6 +544,7 @@ def small_frame(machine: Machine, values: list[Poly]) -> Pointer:
     quotients = Quotients(area)
     machine.contracts = {
         "el_divide_small_q32": quotients.divide,
+        "el_divide_small": quotients.digits,
         "el_multiply_u64": contracts.multiply_u64,
         "el_multiply_u16": contracts.multiply_u16,
     }
@@ -581,6 +599,11 @@ def small_channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     (qx, qy), (column, first_row), (to_x, to_y) = small_parts(machine, small)
     channel = arguments[0].cell.content
     i, j = machine.path.atom("i", 0, SCREEN - 1), machine.path.atom("j", 0, SCREEN - 1)
+    # The lemma's unknowns, for the products with them.
+    ways = [machine.locals[f"el_small_channel_make.to_centre_{axis}"].poly for axis in "xy"]
+    machine.path.prove(ways[0] - to_x, "the way to its centre", zero=True)
+    machine.path.prove(ways[1] - to_y, "the way to its centre", zero=True)
+    to_x, to_y = ways
     offset, across, down = (
         machine.path.floor(part + 2**15, 2**16) for part in (qx * to_x + qy * to_y, qx * 16, qy * 16)
     )
@@ -590,12 +613,19 @@ def small_channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     congruent(got, z, WORD, "the value is Z, rounded, modulo 2^32")
 
 
+def to_centre_lemma(machine: Machine, value: Number) -> Number:
+    """As one unknown, half a pixel at most."""
+    return as_unknown(machine, value, -7, 8)
+
+
 # Differences of small numbers are signed, and fit; sums of products are meant modulo 2^64.
 SMALL_MODULAR = [
     "el_small_plane_make",
     "el_small_channel_make",
-    "el_q32_to_q24",
+    "el_quotient_per_pixel",
+    "el_quotients_times",
     "el_divide_small_q32",
+    "el_divide_small",
     "el_multiply_u64",
     "el_multiply_u16",
 ]
@@ -603,9 +633,16 @@ SMALL_DEPTH = Subject(
     SMALL_FILE, "el_small_plane_make", small_domain("el_plane", 65535), small_plane_check, SMALL_MODULAR
 )
 SMALL_COLOUR = Subject(
-    SMALL_FILE, "el_small_channel_make", small_domain("el_channel", 255 * 256), small_channel_check, SMALL_MODULAR
+    SMALL_FILE,
+    "el_small_channel_make",
+    small_domain("el_channel", 255 * 256),
+    small_channel_check,
+    SMALL_MODULAR,
+    lemmas={f"el_small_channel_make.to_centre_{axis}": to_centre_lemma for axis in "xy"},
 )
 SHORT_WAYS = pytest.mark.parametrize("subject", [SMALL_DEPTH, SMALL_COLOUR], ids=["depth", "colour"])
+# In the digits of a core without a divider.
+COLOUR_BY_TABLE = replace(SMALL_COLOUR, core=ARMV6M)
 
 
 def shape_domain(machine: Machine) -> list[Any]:
@@ -646,6 +683,10 @@ def test_every_small_plane(subject: Subject) -> None:
     subject.prove()
 
 
+def test_every_small_channel_without_a_divider() -> None:
+    COLOUR_BY_TABLE.prove()
+
+
 @SHORT_WAYS
 def test_the_compiler_agrees_on_small_planes(subject: Subject) -> None:
     subject.agree(count=100)
@@ -661,6 +702,8 @@ def test_the_proof_of_small_planes_can_fail() -> None:
     SMALL_DEPTH.fails_with(Fault(header, "- EL_SUBPIXELS / 2);\n}", "+ EL_SUBPIXELS / 2);\n}"))
     SMALL_DEPTH.fails_with(Fault(header, "d1 * frame->shape.dy2 -", "d1 * frame->shape.dy1 -"))
     SMALL_COLOUR.fails_with(Fault(header, "(frame->row - row)", "frame->row"))
+    SMALL_COLOUR.fails_with(Fault(header, "(low + 0x8000)", "(low + 0x7FFF)"))
+    COLOUR_BY_TABLE.fails_with(Fault(header, "(1 << (drop - 1))", "(1 << drop)"))
     SHAPE.fails_with(Fault(header, "shape->dy2 <= EL_EDGE_SHORT", "shape->dy2 <= 2 * EL_EDGE_SHORT"))
 
 

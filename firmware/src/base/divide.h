@@ -245,6 +245,56 @@ static inline uint64_t el_divide_small_q32(int32_t n, const el_small_divisor *di
 #endif
 }
 
+/* The same in three digits, whose sum whole * 2^EL_WHOLE_BIT + high * 2^EL_HIGH_BIT + low is the Q32; |high|, |low| are at
+ * most 2^EL_HIGH_BIT. What follows from them modulo 2^32 needs no wider sums. */
+#if defined(EL_DIVIDE_BY_TABLE)
+enum { EL_WHOLE_BIT = 32, EL_HIGH_BIT = 16 };
+#else
+enum { EL_WHOLE_BIT = 28, EL_HIGH_BIT = 14 };
+#endif
+
+typedef struct el_small_quotient {
+    int32_t whole, high, low;
+} el_small_quotient;
+
+static inline el_small_quotient el_divide_small(int32_t n, const el_small_divisor *divisor)
+{
+#if defined(EL_DIVIDE_BY_TABLE)
+    const uint32_t magnitude = n < 0 ? 0U - (uint32_t)n : (uint32_t)n;
+    if (magnitude >> 16 < divisor->limit) {
+        uint32_t rest = magnitude << divisor->shift; /* below |d| << 16 << shift */
+        uint32_t whole = 0;
+        if (rest >= divisor->normalised) {
+            whole = el_divide_digit(rest >> 16, rest & 0xFFFFU, 16, divisor, &rest);
+        }
+        const uint32_t high = el_divide_digit(rest, 0, 16, divisor, &rest);
+        const uint32_t low = el_divide_digit(rest, 0, 16, divisor, &rest);
+        const int32_t sign = (n < 0) == (divisor->d < 0) ? 1 : -1;
+        return (el_small_quotient){
+            .whole = (int32_t)whole * sign, .high = (int32_t)high * sign, .low = (int32_t)low * sign};
+    }
+#else
+    /* With 17 bits, 2^14 of a remainder fit; n has room for 2^4. */
+    const int32_t d = divisor->d;
+    if ((uint32_t)d + (1U << 17) < 1U << 18) {
+        /* NOLINTBEGIN(clang-analyzer-core.DivideZero): d is not 0. */
+        const int32_t whole = n * (1 << 4) / d;
+        int32_t rest = (n * (1 << 4) - whole * d) * (1 << 14);
+        const int32_t high = rest / d;
+        rest = (rest - high * d) * (1 << 14);
+        return (el_small_quotient){.whole = whole, .high = high, .low = rest / d};
+        /* NOLINTEND(clang-analyzer-core.DivideZero) */
+    }
+#endif
+    const uint64_t quotient = el_divide_small_q32(n, divisor);
+    const uint32_t digit = (1U << EL_HIGH_BIT) - 1U;
+    return (el_small_quotient){
+        .whole = (int32_t)(uint32_t)(quotient >> EL_WHOLE_BIT),
+        .high = (int32_t)((uint32_t)(quotient >> EL_HIGH_BIT) & digit),
+        .low = (int32_t)((uint32_t)quotient & digit),
+    };
+}
+
 /* floor((2^31 - 1) / d), 1 <= d <= EL_SHORT_DIVISOR. */
 enum { EL_SHORT_DIVISOR = 511 };
 #if defined(EL_DIVIDE_BY_TABLE)

@@ -5,6 +5,7 @@
 
 #include "base/dither.h"
 #include "base/fixed.h"
+#include "raster/small_gouraud.h"
 #include "raster/small_triangle.h"
 
 #if !EL_SMALL_CODE
@@ -116,18 +117,30 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     return fill_count(triangle, target, stats, asked);
 }
 
-void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
+static EL_APART void draw_any(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
-#if EL_WITH_SMALL_PLANES
-    if (triangle->edges_are_short && triangle->kind == EL_FILL_DEPTH && triangle->x_begin >= 0 &&
-        triangle->x_end <= target->width) {
-        el_small_triangle_go_on(triangle, target, stats);
-        return;
-    }
-#endif
     int32_t rows;
     do {
         rows = fill_rows(triangle, target, stats, triangle->kind);
     } while (rows == EL_SPAN_ROWS && triangle->y < target->y_end && !el_triangle_is_done(triangle));
+}
+
+void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *stats)
+{
+#if EL_WITH_SMALL_PLANES
+    if (triangle->edges_are_short && triangle->x_begin >= 0 && triangle->x_end <= target->width) {
+        if (triangle->kind == EL_FILL_DEPTH) {
+            el_small_triangle_go_on(triangle, target, stats);
+            return;
+        }
+#if EL_WITH_SMALL_GOURAUD
+        if (triangle->kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) {
+            el_small_gouraud_draw(triangle, target, stats);
+            return;
+        }
+#endif
+    }
+#endif
+    draw_any(triangle, target, stats);
 }
 #endif

@@ -157,6 +157,31 @@ static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsi
 #define EL_KEEP_BRANCH() ((void)0)
 #endif
 
+/* What is made up to here is not made in another way. */
+#if defined(__thumb__)
+#define EL_SETTLE(value) __asm__("" : "+r"(value))
+#else
+#define EL_SETTLE(value) ((void)(value))
+#endif
+
+/* In a loop that adds to it: a compiler does not know beforehand where it arrives, which it makes a long product of. Where
+ * products are short it may: it is no slower, and free to load and step in one. */
+#if defined(EL_PRODUCTS_IN_HALVES)
+#define EL_ADD_UP(value) EL_SETTLE(value)
+#else
+#define EL_ADD_UP(value) ((void)(value))
+#endif
+
+/* RGB565. */
+static EL_SPECIALISED uint32_t el_coloured(const el_values *values)
+{
+    uint32_t colour = values->red >> 27 << 6;
+    EL_SETTLE(colour);
+    colour = (colour | values->green >> 26) << 5;
+    EL_SETTLE(colour);
+    return colour | values->blue >> 27;
+}
+
 /* Whether the pixel is drawn, by the depth that is there; its own is stored then. */
 static EL_SPECIALISED bool el_passes(const el_values *values, uint16_t *depth, unsigned kind)
 {

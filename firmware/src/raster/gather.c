@@ -9,50 +9,93 @@
 #include "base/rgb565.h"
 #include "raster/plain.h"
 
-/* ambient + diffuse * max(0, normal . light), 0..255 in 8.8. */
-static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool turned)
+/* n / 127, n < 2^25. */
+static inline uint32_t by_127(uint32_t n)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    /* Without a division: with n = 128 q + r = 127 q + (q + r), n / 127 is q + (q + r) / 127; and (q + r) is below 2^19, then
+     * below 2^13, then 192. */
+    uint32_t quotient = n >> 7;
+    uint32_t rest = quotient + (n & 127U);
+    quotient += rest >> 7;
+    rest = (rest >> 7) + (rest & 127U);
+    quotient += rest >> 7;
+    rest = (rest >> 7) + (rest & 127U);
+    return quotient + (rest + 1U >= 128U);
+#else
+    return n / 127U;
+#endif
+}
+
+/* A draw's light, as it falls on the front of what is drawn, or on the back. */
+typedef struct lamp {
+    int32_t x, y, z; /* Q14 */
+    uint32_t ambient_q8, diffuse;
+} lamp;
+
+static inline lamp lamp_of(const el_draw_state *draw, bool turned)
 {
     const el_light *const light = draw->material->light;
-    int32_t dot = 0; /* 127 * 2^14 for a unit normal along the light; at most 3 * 2^7 * 2^14 */
-    for (unsigned i = 0; i < 3; i++) {
-        dot += normal[i] * draw->light_q14[i];
-    }
-    dot = turned ? -dot : dot;
-    uint32_t value = (uint32_t)light->ambient << 8;
+    const int32_t side = turned ? -1 : 1;
+    return (lamp){
+        .x = draw->light_q14[0] * side,
+        .y = draw->light_q14[1] * side,
+        .z = draw->light_q14[2] * side,
+        .ambient_q8 = (uint32_t)light->ambient << 8,
+        .diffuse = light->diffuse,
+    };
+}
+
+/* ambient + diffuse * max(0, normal . light), 0..255 in 8.8. */
+static inline uint32_t light_q8(const lamp *l, const int8_t normal[3])
+{
+    /* 127 * 2^14 for a unit normal along the light; at most 3 * 2^7 * 2^14 */
+    const int32_t dot = normal[0] * l->x + normal[1] * l->y + normal[2] * l->z;
+    uint32_t value = l->ambient_q8;
     if (dot > 0) {
-        /* diffuse * 256 * dot / (127 * 2^14), in two steps that stay below 2^31 */
-        value += (uint32_t)light->diffuse * ((uint32_t)dot >> 6) / 127U;
+        /* diffuse * 256 * dot / (127 * 2^14), in two steps that stay below 2^31: 255 * 98304 at most */
+        value += by_127(l->diffuse * ((uint32_t)dot >> 6));
     }
     return value > 0xFF00U ? 0xFF00U : value;
 }
 
-/* colour * light / 255, 8.8. Without a division: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
+/* colour * light / 255, 8.8. Without a long product: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
  * (q + r) <= 65280. */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
     const uint32_t n = colour * light + 127U;
-#if EL_SMALL_CODE
-    return (uint16_t)(n / 255U);
-#else
+#if defined(EL_PRODUCTS_IN_HALVES)
     const uint32_t rest = (n >> 8) + (n & 255U);
     return (uint16_t)((n >> 8) + ((rest + 1U + (rest >> 8)) >> 8));
+#else
+    return (uint16_t)(n / 255U);
 #endif
+}
+
+static inline void light_up(const uint8_t colour[3], uint32_t light, uint16_t rgb_q8[3])
+{
+    rgb_q8[0] = lit_q8(colour[0], light);
+    rgb_q8[1] = lit_q8(colour[1], light);
+    rgb_q8[2] = lit_q8(colour[2], light);
+}
+
+/* What light_up makes of a light of 255: n / 255 = 256 colour for n = 255 * 256 colour + 127. */
+static inline void take_colour(const uint8_t colour[3], uint16_t rgb_q8[3])
+{
+    rgb_q8[0] = (uint16_t)(colour[0] << 8);
+    rgb_q8[1] = (uint16_t)(colour[1] << 8);
+    rgb_q8[2] = (uint16_t)(colour[2] << 8);
 }
 
 /* Three channels of 8.8 for one of the mesh's vertices. */
 static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t vertex, bool turned, uint16_t rgb_q8[3])
 {
-    if (!EL_SMALL_CODE && !el_is_lit(draw->material)) {
-        /* What lit_q8 makes of a light of 255: n / 255 = 256 colour for n = 255 * 256 colour + 127. */
-        rgb_q8[0] = (uint16_t)(colour[0] << 8);
-        rgb_q8[1] = (uint16_t)(colour[1] << 8);
-        rgb_q8[2] = (uint16_t)(colour[2] << 8);
+    if (!el_is_lit(draw->material)) {
+        take_colour(colour, rgb_q8);
         return;
     }
-    const uint32_t light = el_is_lit(draw->material) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
-    for (unsigned i = 0; i < 3; i++) {
-        rgb_q8[i] = lit_q8(colour[i], light);
-    }
+    const lamp l = lamp_of(draw, turned);
+    light_up(colour, light_q8(&l, draw->mesh->normals[vertex]), rgb_q8);
 }
 
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3])
@@ -185,6 +228,26 @@ static EL_APART void gather_attributes(const el_draw_state *draw, const el_recor
     }
 }
 
+#if !EL_SMALL_CODE
+/* Colours alone, of the mesh's vertices. */
+static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, el_corner corners[3])
+{
+    const el_mesh *const mesh = draw->mesh;
+    const uint16_t *const vertices = mesh->triangles[index];
+    if (!el_is_lit(draw->material)) {
+        for (unsigned i = 0; i < 3; i++) {
+            take_colour(el_base_colour(draw, vertices[i]), corners[i].rgb_q8);
+        }
+        return;
+    }
+    const lamp l = lamp_of(draw, is_turned(draw, corners));
+    for (unsigned i = 0; i < 3; i++) {
+        const uint16_t vertex = vertices[i];
+        light_up(el_base_colour(draw, vertex), light_q8(&l, mesh->normals[vertex]), corners[i].rgb_q8);
+    }
+}
+#endif
+
 unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
 {
     const el_run *const run = el_list_run(list, record);
@@ -209,6 +272,10 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     if (plain == NULL) {
         if (shading == EL_SHADE_FLAT) {
             surface->colour = flat_colour(draw, record->index, corners);
+#if !EL_SMALL_CODE
+        } else if (shading == EL_SHADE_GOURAUD && kind != EL_RECORD_CLIPPED) {
+            gather_colours(draw, record->index, corners);
+#endif
         } else if (el_has_texture(shading) || el_has_colours(shading)) {
             gather_attributes(draw, record, kind, corners);
         }

@@ -45,20 +45,18 @@ typedef struct el_small_frame {
     el_small_divisor area;
 } el_small_frame;
 
-/* Per sub-pixel, Q32. */
+/* Per sub-pixel, times the doubled area. */
 typedef struct el_small_gradient {
-    uint64_t per_x, per_y;
+    int32_t along_x, along_y;
 } el_small_gradient;
 
 /* Of the plane through the differences d1 and d2, below 2^16, from the first corner's value. */
 static inline el_small_gradient el_small_gradient_make(const el_small_frame *frame, int32_t d1, int32_t d2)
 {
     /* |a|, |b| <= 2 * 65535 * 1023 < 2^27. */
-    const int32_t a = d1 * frame->shape.dy2 - d2 * frame->shape.dy1;
-    const int32_t b = d2 * frame->shape.dx1 - d1 * frame->shape.dx2;
     return (el_small_gradient){
-        .per_x = el_divide_small_q32(a, &frame->area),
-        .per_y = el_divide_small_q32(b, &frame->area),
+        .along_x = d1 * frame->shape.dy2 - d2 * frame->shape.dy1,
+        .along_y = d2 * frame->shape.dx1 - d1 * frame->shape.dx2,
     };
 }
 
@@ -66,12 +64,35 @@ static inline el_small_gradient el_small_gradient_make(const el_small_frame *fra
 static inline void el_small_plane_make(el_plane *plane, const el_small_frame *frame, int32_t z0, int32_t z1, int32_t z2)
 {
     const el_small_gradient g = el_small_gradient_make(frame, z1 - z0, z2 - z0);
-    plane->dx = g.per_x << EL_SUBPIXEL_BITS;
-    plane->dy = g.per_y << EL_SUBPIXEL_BITS;
+    const uint64_t per_x = el_divide_small_q32(g.along_x, &frame->area);
+    const uint64_t per_y = el_divide_small_q32(g.along_y, &frame->area);
+    plane->dx = per_x << EL_SUBPIXEL_BITS;
+    plane->dy = per_y << EL_SUBPIXEL_BITS;
     /* Column 0 is to the left of what is on the screen. */
     const uint32_t below = (uint32_t)(frame->row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0); /* at most 511 */
     plane->value =
-        ((uint64_t)z0 << 32) + el_multiply_u16(g.per_y, below) - el_multiply_u64(g.per_x, frame->x0 - EL_SUBPIXELS / 2);
+        ((uint64_t)z0 << 32) + el_multiply_u16(per_y, below) - el_multiply_u64(per_x, frame->x0 - EL_SUBPIXELS / 2);
+}
+
+/* 8.24 per pixel of a quotient per sub-pixel, in Q32 of 8.8: EL_SUBPIXELS of them, rounded. */
+static inline uint32_t el_quotient_per_pixel(const el_small_quotient *q)
+{
+    const int drop = 16 - EL_SUBPIXEL_BITS;
+    return ((uint32_t)q->whole << (EL_WHOLE_BIT - drop)) + ((uint32_t)q->high << (EL_HIGH_BIT - drop)) +
+           (uint32_t)((q->low + (1 << (drop - 1))) >> drop);
+}
+
+/* 8.24 of x times one and y times the other, rounded; |x|, |y| <= EL_SUBPIXELS / 2. */
+static inline uint32_t el_quotients_times(const el_small_quotient *per_x, int32_t x, const el_small_quotient *per_y,
+                                          int32_t y)
+{
+    /* Digits' sums are at most 2^20. Of the second one's, a product with 2^EL_HIGH_BIT, what is below 2^16 goes to the third
+     * one's. */
+    const int drop = 16 - EL_HIGH_BIT;
+    const uint32_t whole = (uint32_t)per_x->whole * (uint32_t)x + (uint32_t)per_y->whole * (uint32_t)y;
+    const int32_t high = per_x->high * x + per_y->high * y;
+    const int32_t low = per_x->low * x + per_y->low * y + (high & ((1 << drop) - 1)) * (1 << EL_HIGH_BIT);
+    return (whole << (EL_WHOLE_BIT - 16)) + (uint32_t)(high >> drop) + (uint32_t)((low + 0x8000) >> 16);
 }
 
 /* A colour channel, 0 to 255 in 8.8. Rounded are the offset to the centre of the first corner's pixel and what a pixel is,
@@ -80,16 +101,19 @@ static inline void el_small_channel_make(el_channel *channel, const el_small_fra
                                          int32_t v2)
 {
     const el_small_gradient g = el_small_gradient_make(frame, v1 - v0, v2 - v0);
+    const el_small_quotient per_x = el_divide_small(g.along_x, &frame->area);
+    const el_small_quotient per_y = el_divide_small(g.along_y, &frame->area);
     const int32_t column = frame->x0 >> EL_SUBPIXEL_BITS;
     const int32_t row = frame->y0 >> EL_SUBPIXEL_BITS;
-    const uint64_t offset = el_multiply_u64(g.per_x, column * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0) +
-                            el_multiply_u64(g.per_y, row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0);
-    const uint32_t dx = el_q32_to_q24(g.per_x << EL_SUBPIXEL_BITS);
-    const uint32_t dy = el_q32_to_q24(g.per_y << EL_SUBPIXEL_BITS);
+    const int32_t to_centre_x = column * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0;
+    const int32_t to_centre_y = row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->y0;
+    const uint32_t offset = el_quotients_times(&per_x, to_centre_x, &per_y, to_centre_y);
+    const uint32_t dx = el_quotient_per_pixel(&per_x);
+    const uint32_t dy = el_quotient_per_pixel(&per_y);
     channel->dx = dx;
     channel->dy = dy;
-    channel->value = ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + el_q32_to_q24(offset) + dx * (uint32_t)-column +
-                     dy * (uint32_t)(frame->row - row);
+    channel->value =
+        ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + offset + dx * (uint32_t)-column + dy * (uint32_t)(frame->row - row);
 }
 
 #ifdef __cplusplus
