@@ -31,23 +31,26 @@ static inline const uint8_t *el_plain_colour(const el_draw_state *draw, uint16_t
                                                                 : el_base_colour(draw, mesh->triangles[index][0]);
 }
 
-/* The points of a record whose triangle is flat, in a colour that is not computed, with depth: they and *colour are all of
- * it. NULL for others. */
-static inline const el_point *el_plain_points(const el_list *list, const el_record *record, uint16_t *colour)
+/* What the records of a run have in common, looked up where another run begins. */
+typedef struct el_run_look {
+    const el_draw_state *
+        flat; /* the draw call of triangles that are flat, with depth, their corners in their records; NULL for others */
+    const uint8_t (*colours)[3]; /* of its triangles, as they are drawn; NULL: they are to be computed, or elsewhere */
+    uint16_t run;
+} el_run_look;
+
+static inline el_run_look el_look_at_run(const el_list *list, uint16_t name)
 {
-    const el_run *const run = el_list_run(list, record);
+    el_run_look look = {.run = name};
+    const el_run *const run = (const el_run *)el_list_at(list, name);
     const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
     /* By its material and as it is shaded: a texture that is left out has a colour of its own. */
-    if (draw->material->shading != EL_SHADE_FLAT || el_shading_of(draw) != EL_SHADE_FLAT ||
-        (draw->material->flags & EL_MATERIAL_NO_DEPTH) != 0 || (EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
-        return NULL;
+    if (draw->material->shading == EL_SHADE_FLAT && el_shading_of(draw) == EL_SHADE_FLAT &&
+        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !(EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
+        look.flat = draw;
+        look.colours = el_is_lit(draw->material) ? NULL : draw->mesh->triangle_colours;
     }
-    const uint8_t *const plain = el_plain_colour(draw, record->index);
-    if (plain == NULL) {
-        return NULL;
-    }
-    *colour = el_rgb565(plain[0], plain[1], plain[2]);
-    return record->at.points;
+    return look;
 }
 
 #ifdef __cplusplus
