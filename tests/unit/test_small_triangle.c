@@ -108,14 +108,17 @@ static uint32_t draw_small(seeded *s, const el_record *record, int32_t y, int32_
 static uint32_t draw_tiny(seeded *s, const el_record *record, int32_t y, int32_t lines, el_stats *stats)
 {
     (void)s;
-    el_tiny_triangle triangle;
+    el_tiny_triangle rest;
     el_target target = rows_of(&drawn, y, el_min_i32(y + lines, HEIGHT));
-    if (!el_tiny_triangle_make(&triangle, record, &look, &target)) {
+    const el_tiny_result result = el_tiny_triangle_draw(record, &look, &target, stats, &rest);
+    if (result == EL_TINY_REFUSED) {
         return 0;
     }
+    stats->setups--; /* which callers of the others count */
     uint32_t bands = 1;
-    for (; el_tiny_triangle_draw(&triangle, &target, stats) && target.y_end < HEIGHT; bands++) {
+    for (bool reaches_on = result == EL_TINY_REACHES_ON; reaches_on && target.y_end < HEIGHT; bands++) {
         target = rows_of(&drawn, target.y_end, el_min_i32(target.y_end + lines, HEIGHT));
+        reaches_on = el_tiny_triangle_go_on(&rest, &target, stats);
     }
     return bands;
 }
@@ -196,7 +199,7 @@ static void test_others_are_refused(void)
         el_tiny_triangle tiny;
         el_record record = {.run = 1};
         memcpy(record.at.points, refused[i], sizeof refused[i]);
-        TEST_ASSERT_FALSE(el_tiny_triangle_make(&tiny, &record, &look, &target));
+        TEST_ASSERT_EQUAL(EL_TINY_REFUSED, el_tiny_triangle_draw(&record, &look, &target, &stats, &tiny));
         TEST_ASSERT_FALSE(el_small_triangle_draw(&record, &look, &target, &stats, &rest));
         TEST_ASSERT_EQUAL_INT16(77, rest.y);
         TEST_ASSERT_EQUAL_MEMORY(&none, &stats, sizeof stats);

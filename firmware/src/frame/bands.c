@@ -21,11 +21,11 @@
 typedef struct carried_state {
     uint16_t next;
     uint16_t order; /* name of the record, or of its share in a group */
-#if EL_WITH_HIDDEN
-    uint16_t depth; /* of its nearest corner */
-#endif
 #if EL_WITH_SMALL_PLANES
     bool is_tiny; /* a tiny_state */
+#endif
+#if EL_WITH_HIDDEN
+    uint16_t depth; /* of its nearest corner */
 #endif
     el_triangle triangle;
 } carried_state;
@@ -35,9 +35,6 @@ typedef struct carried_state {
 typedef struct tiny_state {
     uint16_t next;
     uint16_t order;
-#if EL_WITH_HIDDEN
-    uint16_t unused;
-#endif
     bool is_tiny;
     el_tiny_triangle triangle;
 } tiny_state;
@@ -287,12 +284,11 @@ static inline uint16_t draw_record(el_painter *painter, const el_renderer *rende
     if (is_other) {
         return draw_any(painter, renderer, name, target);
     }
-    el_tiny_triangle *const triangle = &place->state->triangle;
-    if (!el_tiny_triangle_make(triangle, record, look, target)) {
+    const el_tiny_result result = el_tiny_triangle_draw(record, look, target, painter->stats, &place->state->triangle);
+    if (result == EL_TINY_REFUSED) {
         return draw_small(painter, renderer, name, look, target);
     }
-    el_count(&painter->stats->setups, 1);
-    if (!el_tiny_triangle_draw(triangle, target, painter->stats) || !painter->goes_on) {
+    if (result == EL_TINY_DRAWN || !painter->goes_on) {
         return 0;
     }
     const uint16_t state_name = place->name;
@@ -329,12 +325,12 @@ static uint16_t draw_tiny(el_painter *painter, const el_renderer *renderer, uint
 #if EL_WITH_HIDDEN
     if (el_hidden_is_likely(painter->hidden, painter->stats) && record_is_hidden(painter, list, state->order, target)) {
         const uint16_t order = state->order;
-        const bool reaches_on = painter->goes_on && state->triangle.y_end > target->y_end;
+        const bool reaches_on = painter->goes_on && state->triangle.rows > target->y_end - target->y;
         give_state(&painter->carrying, list, EL_STATE_TINY, name);
         return reaches_on ? order : 0;
     }
 #endif
-    if (el_tiny_triangle_draw(&state->triangle, target, painter->stats) && painter->goes_on) {
+    if (el_tiny_triangle_go_on(&state->triangle, target, painter->stats) && painter->goes_on) {
         return name;
     }
     give_state(&painter->carrying, list, EL_STATE_TINY, name);

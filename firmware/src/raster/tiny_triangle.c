@@ -36,9 +36,12 @@ static inline int32_t y_of(const corner *c)
     return (int32_t)(c->y_x >> 16);
 }
 
-static inline el_edge_q18 edge_between(const corner *from, const corner *to, int32_t row)
+/* Moved a row down by a step, on a screen of that width. */
+static inline el_edge_q18 edge_between(const corner *from, const corner *to, int32_t row, uint32_t width)
 {
-    return el_edge_make_q18(x_of(from), y_of(from), x_of(to), y_of(to), row);
+    el_edge_q18 edge = el_edge_make_q18(x_of(from), y_of(from), x_of(to), y_of(to), row);
+    edge.step += width << 18;
+    return edge;
 }
 
 static inline int32_t magnitude(int32_t a)
@@ -46,13 +49,14 @@ static inline int32_t magnitude(int32_t a)
     return a < 0 ? -a : a;
 }
 
-/* Its row y, which may be above the target: then only what is far enough behind it is in memory. */
-static inline el_cursor cursor_at(const el_target *target, int32_t y)
+/* The row so many above one of the target's: it may be above all of them, and then only what is far enough behind it is in memory. */
+static inline el_cursor cursor_at(const el_target *target, int32_t row, int32_t rows_above)
 {
+    const intptr_t pixels = (intptr_t)((row - target->y - rows_above) * target->width);
     const uintptr_t depth = (uintptr_t)target->depth;
     return (el_cursor){
         /* A sum of numbers, as there is no pointer to where nothing is. NOLINTNEXTLINE(performance-no-int-to-ptr) */
-        .row = (uint16_t *)(depth + (uintptr_t)(intptr_t)((y - target->y) * target->width) * sizeof(uint16_t)),
+        .row = (uint16_t *)(depth + (uintptr_t)pixels * sizeof(uint16_t)),
         .to_colour = (uintptr_t)target->colour - depth,
     };
 }
@@ -60,14 +64,11 @@ static inline el_cursor cursor_at(const el_target *target, int32_t y)
 /* What is counted of a band's rows, in one word: 32 pixels of 17 rows at most. */
 enum { ONE_EMPTY_ROW = 1 << 12, ONE_ROW = 1 << 20 };
 
-bool el_tiny_triangle_draw(el_tiny_triangle *t, const el_target *target, el_stats *stats)
+/* Draws so many rows, the lower part's edge following after upper_rows of them, and moves on to the next one. `first` is the row
+ * where the triangle was set up. */
+static EL_SPECIALISED void draw_rows(el_tiny_triangle *t, el_cursor first, int32_t rows, int32_t upper_rows,
+                                     el_stats *stats)
 {
-    const int32_t y = el_max_i32(t->y, target->y);
-    const int32_t y_stop = el_min_i32(t->y_end, target->y_end);
-    const bool bends = t->y_middle <= y_stop;
-    int32_t later_rows = bends ? y_stop - t->y_middle : 0;
-    int32_t counts = (y_stop - y - later_rows - 1) * ONE_ROW;
-    const el_cursor first = cursor_at(target, t->y);
     const uint32_t base = (uint32_t)t->z.base;
     const uint16_t colour = t->colour;
     const uint32_t dx = t->z.dx;
@@ -75,6 +76,8 @@ bool el_tiny_triangle_draw(el_tiny_triangle *t, const el_target *target, el_stat
     uint32_t z_row = t->z.value;
     el_edge_q18 left = t->left;
     el_edge_q18 right = t->right;
+    bool bends = upper_rows <= rows;
+    int32_t counts = ((bends ? upper_rows : rows) - 1) * ONE_ROW;
     for (;;) {
         do {
             /* Both are rounded up alike: the right one is never left of the left one. */
@@ -102,38 +105,31 @@ bool el_tiny_triangle_draw(el_tiny_triangle *t, const el_target *target, el_stat
             z_row += dy;
             counts -= ONE_ROW;
         } while (counts >= 0);
-        if (later_rows == 0) {
+        if (!bends) {
             break;
         }
-        counts += later_rows * ONE_ROW;
-        later_rows = 0;
+        bends = false;
         if (t->short_is_left) {
             left = t->lower;
         } else {
             right = t->lower;
         }
+        if (upper_rows == rows) {
+            break;
+        }
+        counts += (rows - upper_rows) * ONE_ROW;
     }
     const uint32_t counted = (uint32_t)(counts + ONE_ROW);
-    el_count(&stats->rows, (uint32_t)(y_stop - y));
-    el_count(&stats->spans, (uint32_t)(y_stop - y) - counted / ONE_EMPTY_ROW);
+    el_count(&stats->rows, (uint32_t)rows);
+    el_count(&stats->spans, (uint32_t)rows - counted / ONE_EMPTY_ROW);
     el_count(&stats->pixels, counted % ONE_EMPTY_ROW);
-    if (y_stop == t->y_end) {
-        return false;
-    }
     t->left = left;
     t->right = right;
     t->z.value = z_row;
-    if (bends) {
-        if (t->y_middle == y_stop) {
-            *(t->short_is_left ? &t->left : &t->right) = t->lower;
-        }
-        t->y_middle = UINT16_MAX;
-    }
-    return true;
 }
 
-bool el_tiny_triangle_make(el_tiny_triangle *t, const el_record *record, const el_run_look *look,
-                           const el_target *target)
+el_tiny_result el_tiny_triangle_draw(const el_record *record, const el_run_look *look, const el_target *target,
+                                     el_stats *stats, el_tiny_triangle *rest)
 {
     corner top = corner_of(&record->at.points[0]);
     corner middle = corner_of(&record->at.points[1]);
@@ -142,7 +138,7 @@ bool el_tiny_triangle_make(el_tiny_triangle *t, const el_record *record, const e
     const uint32_t last = 0x7FFF0000U + (uint32_t)(target->width * EL_SUBPIXELS);
     if (((top.y_x | middle.y_x | bottom.y_x | (last - top.y_x) | (last - middle.y_x) | (last - bottom.y_x)) &
          0x80008000U) != 0) {
-        return false;
+        return EL_TINY_REFUSED;
     }
     put_in_order(&top, &middle);
     put_in_order(&middle, &bottom);
@@ -158,41 +154,57 @@ bool el_tiny_triangle_make(el_tiny_triangle *t, const el_record *record, const e
     const int32_t widths = magnitude(shape.dx1) + magnitude(shape.dx2) + magnitude(shape.dx2 - shape.dx1);
     shape.width_height = widths / 2 + shape.dy2;
     shape.area = shape.dx1 * shape.dy2 - shape.dx2 * shape.dy1;
-    const int32_t y_begin = el_max_i32(target->y, el_first_centre(y_of(&top)));
+    const int32_t y = el_max_i32(target->y, el_first_centre(y_of(&top)));
     const int32_t y_end = el_first_centre(y_of(&bottom));
-    if (y_begin >= el_min_i32(y_end, target->y_end) || shape.dy2 > EL_TINY_HIGH || shape.width_height > EL_TINY_LONG ||
-        shape.area == 0 || magnitude(shape.area) * (shape.width_height + 2 * EL_SUBPIXELS) >= EL_TINY_MOST ||
-        !el_tiny_plane_make(&t->z, &shape, x_of(&top), y_of(&top), y_begin, top.z, middle.z - top.z,
-                            bottom.z - top.z)) {
-        return false;
+    const int32_t rows = el_min_i32(y_end, target->y_end) - y;
+    el_tiny_triangle t;
+    if (rows <= 0 || shape.dy2 > EL_TINY_HIGH || shape.width_height > EL_TINY_LONG || shape.area == 0 ||
+        magnitude(shape.area) * (shape.width_height + 2 * EL_SUBPIXELS) >= EL_TINY_MOST ||
+        !el_tiny_plane_make(&t.z, &shape, x_of(&top), y_of(&top), y, top.z, middle.z - top.z, bottom.z - top.z)) {
+        return EL_TINY_REFUSED;
     }
     const uint32_t width = (uint32_t)target->width;
     const int32_t y_middle = el_first_centre(y_of(&middle));
-    t->z.dy -= t->z.dx * width;
-    t->short_is_left = shape.area < 0;
-    t->y = (uint16_t)y_begin;
-    t->y_middle = UINT16_MAX;
-    t->y_end = (uint16_t)y_end;
-    el_edge_q18 *const bent = t->short_is_left ? &t->left : &t->right;
-    el_edge_q18 *const straight = t->short_is_left ? &t->right : &t->left;
-    *straight = edge_between(&top, &bottom, y_begin);
-    straight->step += width << 18;
+    int32_t upper_rows = EL_TINY_NO_BEND;
+    t.z.dy -= t.z.dx * width;
+    t.short_is_left = shape.area < 0;
+    const el_edge_q18 straight = edge_between(&top, &bottom, y, width);
+    t.lower = straight;
     if (y_middle < y_end) {
-        t->lower = edge_between(&middle, &bottom, el_max_i32(y_begin, y_middle));
-        t->lower.step += width << 18;
+        t.lower = edge_between(&middle, &bottom, el_max_i32(y, y_middle), width);
     }
-    if (y_begin < y_middle) {
-        *bent = edge_between(&top, &middle, y_begin);
-        bent->step += width << 18;
+    el_edge_q18 bent = t.lower;
+    if (y < y_middle) {
+        bent = edge_between(&top, &middle, y, width);
         if (y_middle < y_end) {
-            t->lower.x += ((uint32_t)(y_middle - y_begin) * width) << 18;
-            t->y_middle = (uint16_t)y_middle;
+            upper_rows = y_middle - y;
+            t.lower.x += ((uint32_t)upper_rows * width) << 18;
         }
-    } else {
-        *bent = t->lower;
     }
-    t->colour = el_flat_colour(look, record);
-    return true;
+    t.left = t.short_is_left ? bent : straight;
+    t.right = t.short_is_left ? straight : bent;
+    t.colour = el_flat_colour(look, record);
+    el_count(&stats->setups, 1);
+    draw_rows(&t, cursor_at(target, y, 0), rows, upper_rows, stats);
+    if (rows == y_end - y) {
+        return EL_TINY_DRAWN;
+    }
+    t.rows_above = (uint8_t)rows;
+    t.rows = (uint8_t)(y_end - y - rows);
+    t.upper_rows = (uint8_t)(upper_rows > rows ? upper_rows - rows : EL_TINY_NO_BEND);
+    *rest = t;
+    return EL_TINY_REACHES_ON;
+}
+
+bool el_tiny_triangle_go_on(el_tiny_triangle *rest, const el_target *target, el_stats *stats)
+{
+    const int32_t rows = el_min_i32(rest->rows, target->y_end - target->y);
+    const int32_t upper_rows = rest->upper_rows;
+    draw_rows(rest, cursor_at(target, target->y, rest->rows_above), rows, upper_rows, stats);
+    rest->rows_above = (uint8_t)(rest->rows_above + rows);
+    rest->rows = (uint8_t)(rest->rows - rows);
+    rest->upper_rows = (uint8_t)(upper_rows > rows ? upper_rows - rows : EL_TINY_NO_BEND);
+    return rest->rows != 0;
 }
 
 #endif

@@ -56,7 +56,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/gather.c", "*", "set-up"),
     ("firmware/src/raster/small_triangle.c", "draw_rows", "pixels"),
     ("firmware/src/raster/small_triangle.c", "*", "set-up"),
-    ("firmware/src/raster/tiny_triangle.c", "el_tiny_triangle_draw", "pixels"),
+    ("firmware/src/raster/tiny_triangle.c", "draw_rows", "pixels"),
     ("firmware/src/raster/tiny_triangle.c", "*", "set-up"),
     ("firmware/src/raster/triangle.c", "*", "set-up"),
     ("firmware/src/raster/plane.c", "*", "set-up"),
