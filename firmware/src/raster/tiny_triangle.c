@@ -64,10 +64,10 @@ static inline el_cursor cursor_at(const el_target *target, int32_t row, int32_t 
 /* What is counted of a band's rows, in one word: 32 pixels of 17 rows at most. */
 enum { ONE_EMPTY_ROW = 1 << 12, ONE_ROW = 1 << 20 };
 
-/* Draws so many rows, the lower part's edge following after upper_rows of them, and moves on to the next one. `first` is the row
- * where the triangle was set up. */
-static EL_SPECIALISED void draw_rows(el_tiny_triangle *t, el_cursor first, int32_t rows, int32_t upper_rows,
-                                     el_stats *stats)
+/* Draws so many of the rows that are left, the lower part's edge following after upper_rows of them. `first` is the row where the
+ * triangle was set up. Returns whether there are more, and has moved on to them then. */
+static EL_SPECIALISED bool draw_rows(el_tiny_triangle *t, el_cursor first, int32_t rows, int32_t upper_rows,
+                                     int32_t rows_left, el_stats *stats)
 {
     const uint32_t base = (uint32_t)t->z.base;
     const uint16_t colour = t->colour;
@@ -98,6 +98,7 @@ static EL_SPECIALISED void draw_rows(el_tiny_triangle *t, el_cursor first, int32
                     z += dx;
                 } while (++at != end);
             } else {
+                EL_KEEP_BRANCH();
                 counts += ONE_EMPTY_ROW;
             }
             left.x += left.step;
@@ -123,9 +124,15 @@ static EL_SPECIALISED void draw_rows(el_tiny_triangle *t, el_cursor first, int32
     el_count(&stats->rows, (uint32_t)rows);
     el_count(&stats->spans, (uint32_t)rows - counted / ONE_EMPTY_ROW);
     el_count(&stats->pixels, counted % ONE_EMPTY_ROW);
+    if (rows == rows_left) {
+        return false;
+    }
     t->left = left;
     t->right = right;
     t->z.value = z_row;
+    t->rows = (uint8_t)(rows_left - rows);
+    t->upper_rows = (uint8_t)(upper_rows > rows ? upper_rows - rows : EL_TINY_NO_BEND);
+    return true;
 }
 
 el_tiny_result el_tiny_triangle_draw(const el_record *record, const el_run_look *look, const el_target *target,
@@ -185,26 +192,21 @@ el_tiny_result el_tiny_triangle_draw(const el_record *record, const el_run_look 
     t.right = t.short_is_left ? straight : bent;
     t.colour = el_flat_colour(look, record);
     el_count(&stats->setups, 1);
-    draw_rows(&t, cursor_at(target, y, 0), rows, upper_rows, stats);
-    if (rows == y_end - y) {
+    if (!draw_rows(&t, cursor_at(target, y, 0), rows, upper_rows, y_end - y, stats)) {
         return EL_TINY_DRAWN;
     }
     t.rows_above = (uint8_t)rows;
-    t.rows = (uint8_t)(y_end - y - rows);
-    t.upper_rows = (uint8_t)(upper_rows > rows ? upper_rows - rows : EL_TINY_NO_BEND);
     *rest = t;
     return EL_TINY_REACHES_ON;
 }
 
 bool el_tiny_triangle_go_on(el_tiny_triangle *rest, const el_target *target, el_stats *stats)
 {
-    const int32_t rows = el_min_i32(rest->rows, target->y_end - target->y);
-    const int32_t upper_rows = rest->upper_rows;
-    draw_rows(rest, cursor_at(target, target->y, rest->rows_above), rows, upper_rows, stats);
+    const int32_t rows_left = rest->rows;
+    const int32_t rows = el_min_i32(rows_left, target->y_end - target->y);
+    const el_cursor first = cursor_at(target, target->y, rest->rows_above);
     rest->rows_above = (uint8_t)(rest->rows_above + rows);
-    rest->rows = (uint8_t)(rest->rows - rows);
-    rest->upper_rows = (uint8_t)(upper_rows > rows ? upper_rows - rows : EL_TINY_NO_BEND);
-    return rest->rows != 0;
+    return draw_rows(rest, first, rows, rest->upper_rows, rows_left, stats);
 }
 
 #endif
