@@ -29,7 +29,8 @@ static buffers expected, drawn;
 
 static const uint8_t colours[1][3] = {{16, 68, 160}};
 static const uint16_t colour = 0x1234; /* the same */
-static const el_run_look look = {.colours = colours};
+static const el_run_look look = {.colours = colours,
+                                 .last_corner = (INT16_MAX << 16) + (uint32_t)(WIDTH * EL_SUBPIXELS)};
 
 static el_target rows_of(buffers *b, int32_t y, int32_t y_end)
 {

@@ -214,9 +214,9 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
 }
 
 #if EL_WITH_SMALL_PLANES
-static __attribute__((noinline)) void look_at_run(el_run_look *look, const el_list *list, uint16_t run)
+static __attribute__((noinline)) void look_at_run(el_run_look *look, const el_list *list, uint16_t run, int32_t width)
 {
-    *look = el_look_at_run(list, run);
+    *look = el_look_at_run(list, run, width);
 }
 
 /* Flat triangles that are small but not tiny, from their record to their pixels. */
@@ -275,7 +275,7 @@ static inline uint16_t draw_record(el_painter *painter, const el_renderer *rende
     const el_list *const list = &renderer->list;
     const el_record *const record = el_list_record(list, name);
     if (record->run != look->run) {
-        look_at_run(look, list, record->run);
+        look_at_run(look, list, record->run, target->width);
     }
     bool is_other = look->flat == NULL;
 #if EL_WITH_HIDDEN

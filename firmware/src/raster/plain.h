@@ -31,15 +31,18 @@ static inline const uint8_t *el_plain_colour(const el_draw_state *draw, uint16_t
                                                                 : el_base_colour(draw, mesh->triangles[index][0]);
 }
 
-/* What the records of a run have in common, looked up where another run begins. */
+/* What the records of a run have in common on a screen of some width, looked up where another run begins. */
 typedef struct el_run_look {
-    const el_draw_state *
-        flat; /* the draw call of triangles that are flat, with depth, their corners in their records; NULL for others */
-    const uint8_t (*colours)[3]; /* of its triangles, as they are drawn; NULL: they are to be computed, or elsewhere */
+    const el_draw_state *flat;   /* whose triangles are flat, with depth, their corners in their records; else NULL */
+    const uint8_t (*colours)[3]; /* of its triangles, as they are drawn; NULL: see el_list_flat_colour */
+    uint32_t last_corner;        /* of tiny triangles: y * 2^16 + x; 0 where the screen is too wide for them */
     uint16_t run;
 } el_run_look;
 
-static inline el_run_look el_look_at_run(const el_list *list, uint16_t name)
+/* Tiny triangles number the pixels of 17 rows with 14 bits (tiny_triangle.h). */
+enum { EL_TINY_SCREEN = (1 << 14) / 17 };
+
+static inline el_run_look el_look_at_run(const el_list *list, uint16_t name, int32_t width)
 {
     el_run_look look = {.run = name};
     const el_run *const run = (const el_run *)el_list_at(list, name);
@@ -49,6 +52,7 @@ static inline el_run_look el_look_at_run(const el_list *list, uint16_t name)
         (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !(EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
         look.flat = draw;
         look.colours = el_is_lit(draw->material) ? NULL : draw->mesh->triangle_colours;
+        look.last_corner = width <= EL_TINY_SCREEN ? (INT16_MAX << 16) + (uint32_t)(width * EL_SUBPIXELS) : 0U;
     }
     return look;
 }

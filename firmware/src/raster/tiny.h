@@ -113,8 +113,8 @@ static inline bool el_tiny_plane_make(el_tiny_plane *plane, const el_tiny_shape 
     plane->dx = el_tiny_per_pixel(gx);
     plane->dy = el_tiny_per_pixel(gy);
     plane->base = z0 - EL_TINY_SIDE;
-    /* From the corner to the centre of the first column's pixel in that row. Upper parts count modulo 2^20 here; lower ones are below
-     * 2^16 and 2^16 * (2^14 + 2^8) < 2^31. */
+    /* From the corner to the centre of the first column's pixel in that row. Upper parts count modulo 2^20 here; lower ones
+     * are below 2^16, and 2^16 * (2^14 + 2^8) < 2^31. */
     const int32_t right = EL_SUBPIXELS / 2 - x0;
     const int32_t down = row * EL_SUBPIXELS + EL_SUBPIXELS / 2 - y0;
     const uint32_t upper = (uint32_t)gx.upper * (uint32_t)right + (uint32_t)gy.upper * (uint32_t)down;
@@ -138,7 +138,7 @@ static inline el_edge_q18 el_edge_make_q18(int32_t x0, int32_t y0, int32_t x1, i
     const int32_t down = row * EL_SUBPIXELS + half - y0; /* below dy */
 #if defined(EL_DIVIDE_BY_TABLE)
     const int32_t reciprocal = el_reciprocal_of_short(dy);
-    const int32_t step = dx * (reciprocal >> 16) * (1 << 3) + ((dx * (reciprocal & 0xFFFF)) >> 13); /* |step| < 2^27 */
+    const int32_t step = el_product_down_11(dx, reciprocal) >> 2; /* |step| < 2^27 */
 #else
     const int32_t step = dx * (1 << 18) / dy;
 #endif

@@ -52,7 +52,7 @@ static inline int32_t magnitude(int32_t a)
 /* The row so many above one of the target's: it may be above all of them, and then only what is far enough behind it is in memory. */
 static inline el_cursor cursor_at(const el_target *target, int32_t row, int32_t rows_above)
 {
-    const intptr_t pixels = (intptr_t)((row - target->y - rows_above) * target->width);
+    const int32_t pixels = (row - target->y - rows_above) * target->width; /* |rows| < 2^11 */
     const uintptr_t depth = (uintptr_t)target->depth;
     return (el_cursor){
         /* A sum of numbers, as there is no pointer to where nothing is. NOLINTNEXTLINE(performance-no-int-to-ptr) */
@@ -142,7 +142,7 @@ el_tiny_result el_tiny_triangle_draw(const el_record *record, const el_run_look 
     corner middle = corner_of(&record->at.points[1]);
     corner bottom = corner_of(&record->at.points[2]);
     /* Negative, or beyond the last column: the difference to it borrows in the lower half alone then. */
-    const uint32_t last = 0x7FFF0000U + (uint32_t)(target->width * EL_SUBPIXELS);
+    const uint32_t last = look->last_corner;
     if (((top.y_x | middle.y_x | bottom.y_x | (last - top.y_x) | (last - middle.y_x) | (last - bottom.y_x)) &
          0x80008000U) != 0) {
         return EL_TINY_REFUSED;
