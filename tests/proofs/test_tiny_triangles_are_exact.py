@@ -1,15 +1,15 @@
 """raster/tiny.h: depth in 32 bits is the rounded depth, and edges in Q18 are exact.
 
-Of a triangle with the doubled area A in a box of W x H sub-pixels, X and Y the way from its top corner to the centre of
-pixel (i, j), depth is z0 + (a X + b Y) / A. Gradients are whole numbers G with |G A - 2^24 a| < A: 2^-24 per sub-pixel,
-2^-20 per pixel. What the C has at the pixel is, modulo 2^32,
+Of a triangle with the doubled area A in a box of W x H sub-pixels, X and Y the way from its top corner to the centre
+of pixel (i, j), depth is z0 + (a X + b Y) / A. Gradients are whole numbers G with |G A - 2^24 a| < A: 2^-24 per
+sub-pixel, 2^-20 per pixel. What the C has at the pixel is, modulo 2^32,
 
     V = 2^20 (2048 + 1/2) + K + floor((Gx X + Gy Y) / 16),      K = floor((W + H) / 16) + 2,
 
-and it is beyond 2^20 (depth - base + 1/2), with base = z0 - 2048, by some excess with 0 < 16 A excess < 2^23. Depth and
-1/2 is a multiple of 1 / 2A, which is 2^23 / 16 A in these units: the whole part of V 2^-20 is that of depth - base + 1/2.
-A plane with quotients per sub-pixel, truncated at 2^-32, is off by W + H units at most, with 2^13 added: beyond as well,
-and by less than 1 / 2A. So both have the same whole part at every covered pixel.
+and it is beyond 2^20 (depth - base + 1/2), with base = z0 - 2048, by some excess with 0 < 16 A excess < 2^23. Depth
+and 1/2 is a multiple of 1 / 2A, which is 2^23 / 16 A in these units: V 2^-20 and depth - base + 1/2 have the same whole
+part. A plane with quotients per sub-pixel, truncated at 2^-32, is off by W + H units at most, with 2^13 added: beyond as
+well, and by less than 1 / 2A. So both have the same whole part at every covered pixel.
 
 Edges are as short ones (test_edges_are_exact), with 2^18 for 2^20 and 24 units less added first:
 
@@ -89,6 +89,7 @@ class Shape:
     z0: Poly
     width: Poly
     height: Poly
+    corners: list[tuple[Poly, Poly, Poly]]  # the others: the way there, and how much deeper they are
     area: Poly
     gradients: list[tuple[Poly, Poly]]
 
@@ -145,7 +146,8 @@ def plane_domain(machine: Machine) -> list[Any]:
             "el_tiny_gradient_make": make,
             "el_small_divisor_make": lambda machine, arguments: machine.struct("el_small_divisor", d=arguments[0].poly),
         }
-    SHAPES[id(path)] = Shape(x0, y0, row, z0, width, dy2, area, gradients)
+    corners = [(dx1, dy1, d1), (dx2, dy2, d2)]
+    SHAPES[id(path)] = Shape(x0, y0, row, z0, width, dy2, corners, area, gradients)
     numbers = [machine.exactly("int32_t", number) for number in (x0, y0, row, z0, d1, d2)]
     return [Pointer([machine.struct("el_tiny_plane")]), Pointer([shape]), *numbers]
 
@@ -159,7 +161,8 @@ def plane_check(machine: Machine, arguments: list[Any], result: Number) -> None:
     plane = arguments[0].cell
     i, j = path.atom("i", 0, SCREEN - 1), path.atom("j", 0, SCREEN - 1)
     (a, gx), (b, gy) = shape.gradients
-    x, y = i * 16 + 8 - shape.x0, j * 16 + 8 - shape.y0
+    for x, y, deeper in shape.corners:
+        path.prove(a * x + b * y - deeper * shape.area, "the plane through the corners", zero=True)
     value, dx, dy, base = (machine.poly(plane, name) for name in ("value", "dx", "dy", "base"))
     path.prove(base - shape.z0 + 2048, "the base", zero=True)
     size = path.floor(shape.width + shape.height, 16) + 2
