@@ -15,7 +15,7 @@ void setUp(void)
 {
     static const el_stats none;
     target = (el_target){.depth = depth, .width = WIDTH, .y = 40, .y_end = 40 + LINES};
-    el_hidden_begin(&hidden, &none);
+    el_hidden_begin(&hidden, &none, 0);
 }
 
 void tearDown(void)

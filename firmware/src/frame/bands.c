@@ -8,6 +8,7 @@
 #include "raster/hidden.h"
 #include "raster/plain.h"
 #include "raster/small_triangle.h"
+#include "raster/tiny_triangle.h"
 
 /* What frame/workers.c calls too, if there are workers. */
 #if EL_WITH_WORKERS
@@ -20,25 +21,49 @@
 typedef struct carried_state {
     uint16_t next;
     uint16_t order; /* name of the record, or of its share in a group */
+#if EL_WITH_SMALL_PLANES
+    bool is_tiny; /* a tiny_state */
+#endif
 #if EL_WITH_HIDDEN
     uint16_t depth; /* of its nearest corner */
 #endif
     el_triangle triangle;
 } carried_state;
 
+#if EL_WITH_SMALL_PLANES
+/* Of tiny triangles: a carried_state up to there, in half the memory. */
+typedef struct tiny_state {
+    uint16_t next;
+    uint16_t order;
+    bool is_tiny;
+    el_tiny_triangle triangle;
+} tiny_state;
+_Static_assert(offsetof(tiny_state, is_tiny) == offsetof(carried_state, is_tiny), "one may be asked for the other");
+#endif
+
 /* What a depth band is cleared to; before a pre-pass a unit less, which is added then (draw_depth_first). */
 enum { EMPTY = 0xFFFF, FARTHEST = EL_DEPTH_MAX };
 
 enum { NO_ORDER = 0xFFFF }; /* after all names: a list ends before that unit */
 
-static uint16_t take_state(el_carrying *c, const el_list *list, el_shading shading)
+static uint32_t state_bytes(el_state_kind kind)
 {
-    const uint16_t reused = c->given_back[shading];
+#if EL_WITH_SMALL_PLANES
+    if (kind == EL_STATE_TINY) {
+        return sizeof(tiny_state);
+    }
+#endif
+    return offsetof(carried_state, triangle) + el_triangle_bytes((el_shading)kind);
+}
+
+static uint16_t take_state(el_carrying *c, const el_list *list, el_state_kind kind)
+{
+    const uint16_t reused = c->given_back[kind];
     if (reused != 0) {
-        c->given_back[shading] = *(const uint16_t *)el_list_at(list, reused);
+        c->given_back[kind] = *(const uint16_t *)el_list_at(list, reused);
         return reused;
     }
-    const uint32_t bytes = EL_LIST_BYTES(offsetof(carried_state, triangle) + el_triangle_bytes(shading));
+    const uint32_t bytes = EL_LIST_BYTES(state_bytes(kind));
     if (bytes > c->end - c->used) {
         return 0;
     }
@@ -47,10 +72,10 @@ static uint16_t take_state(el_carrying *c, const el_list *list, el_shading shadi
     return name;
 }
 
-static void give_state(el_carrying *c, const el_list *list, el_shading shading, uint16_t name)
+static void give_state(el_carrying *c, const el_list *list, el_state_kind kind, uint16_t name)
 {
-    *(uint16_t *)el_list_at(list, name) = c->given_back[shading];
-    c->given_back[shading] = name;
+    *(uint16_t *)el_list_at(list, name) = c->given_back[kind];
+    c->given_back[kind] = name;
 }
 
 /* The place of something carried in the order of submission. */
@@ -152,7 +177,7 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
     const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
 #if EL_WITH_HIDDEN
-    if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
+    if (el_hidden_is_likely(painter->hidden, painter->stats) &&
         is_hidden(painter, target, &surface,
                   el_first_centre(el_min_i32(corners[0].x, el_min_i32(corners[1].x, corners[2].x))),
                   el_first_centre(el_max_i32(corners[0].x, el_max_i32(corners[1].x, corners[2].x))),
@@ -162,10 +187,13 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
 #endif
     el_count(&painter->stats->setups, 1);
     if (EL_WITH_CARRY && reaches_on) {
-        state_name = take_state(c, list, surface.shading);
+        state_name = take_state(c, list, (el_state_kind)surface.shading);
         if (state_name != 0) {
             carried_state *const state = el_list_at(list, state_name);
             state->order = name;
+#if EL_WITH_SMALL_PLANES
+            state->is_tiny = false;
+#endif
 #if EL_WITH_HIDDEN
             state->depth = nearest(corners);
 #endif
@@ -174,7 +202,7 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     }
     if (!el_triangle_setup(triangle, corners, &surface, target->y)) {
         if (state_name != 0) {
-            give_state(c, list, surface.shading, state_name);
+            give_state(c, list, (el_state_kind)surface.shading, state_name);
         }
         return 0;
     }
@@ -186,44 +214,127 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
 }
 
 #if EL_WITH_SMALL_PLANES
-/* The same, for the records that are listed in this band: nearly all of a mesh without light or texture are done at once. */
-static __attribute__((noinline)) uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
-                                                      const el_target *target)
+static __attribute__((noinline)) void look_at_run(el_run_look *look, const el_list *list, uint16_t run, int32_t width)
+{
+    *look = el_look_at_run(list, run, width);
+}
+
+/* Flat triangles that are small but not tiny, from their record to their pixels. */
+static __attribute__((noinline)) uint16_t draw_small(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                     const el_run_look *look, const el_target *target)
 {
     const el_list *const list = &renderer->list;
-    uint16_t colour;
-    const el_point *const points = el_plain_points(list, el_list_record(list, name), &colour);
-    bool is_other = points == NULL || (EL_WITH_DEBUG_VIEWS && renderer->config.view != EL_DEBUG_PICTURE);
-#if EL_WITH_HIDDEN
-    is_other = is_other || el_hidden_is_likely(painter->hidden, target, painter->stats);
-#endif
-    if (!is_other) {
-        const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
-        uint16_t state_name = 0;
-        uint16_t carried_name = 0;
-        el_triangle *rest = NULL;
-        if (painter->goes_on && el_first_centre(y_last) > target->y_end) {
-            carried_name = name;
-            state_name = EL_WITH_CARRY ? take_state(&painter->carrying, list, EL_SHADE_FLAT) : 0;
-            if (state_name != 0) {
-                carried_state *const state = el_list_at(list, state_name);
-                state->order = name;
-#if EL_WITH_HIDDEN
-                state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
-#endif
-                rest = &state->triangle;
-                carried_name = state_name;
-            }
-        }
-        if (el_small_triangle_draw(points, colour, target, painter->stats, rest)) {
-            el_count(&painter->stats->setups, 1);
-            return carried_name;
-        }
+    const el_record *const record = el_list_record(list, name);
+    const el_point *const points = record->at.points;
+    const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
+    uint16_t state_name = 0;
+    uint16_t carried_name = 0;
+    el_triangle *rest = NULL;
+    if (painter->goes_on && el_first_centre(y_last) > target->y_end) {
+        carried_name = name;
+        state_name = EL_WITH_CARRY ? take_state(&painter->carrying, list, (el_state_kind)EL_SHADE_FLAT) : 0;
         if (state_name != 0) {
-            give_state(&painter->carrying, list, EL_SHADE_FLAT, state_name);
+            carried_state *const state = el_list_at(list, state_name);
+            state->order = name;
+            state->is_tiny = false;
+#if EL_WITH_HIDDEN
+            state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+#endif
+            rest = &state->triangle;
+            carried_name = state_name;
         }
     }
+    if (el_small_triangle_draw(record, look, target, painter->stats, rest)) {
+        el_count(&painter->stats->setups, 1);
+        return carried_name;
+    }
+    if (state_name != 0) {
+        give_state(&painter->carrying, list, (el_state_kind)EL_SHADE_FLAT, state_name);
+    }
     return draw_any(painter, renderer, name, target);
+}
+
+/* Where the next tiny triangle is set up: in a state, which it keeps when it reaches on. */
+typedef struct tiny_place {
+    tiny_state *state;
+    uint16_t name;    /* 0: there is no memory for one */
+    tiny_state spare; /* the place then */
+} tiny_place;
+
+static inline void find_place(tiny_place *place, el_carrying *c, const el_list *list)
+{
+    place->name = EL_WITH_CARRY ? take_state(c, list, EL_STATE_TINY) : 0;
+    place->state = place->name != 0 ? el_list_at(list, place->name) : &place->spare;
+    place->state->is_tiny = true;
+}
+
+/* Draws a record that is listed in this band: nearly all of a mesh without textures or vertex colours are done at once. As draw_named. */
+static inline uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                   const el_target *target, el_run_look *look, tiny_place *place)
+{
+    const el_list *const list = &renderer->list;
+    const el_record *const record = el_list_record(list, name);
+    if (record->run != look->run) {
+        look_at_run(look, list, record->run, target->width);
+    }
+    bool is_other = look->flat == NULL;
+#if EL_WITH_HIDDEN
+    is_other = is_other || el_hidden_is_likely(painter->hidden, painter->stats);
+#endif
+    if (is_other) {
+        return draw_any(painter, renderer, name, target);
+    }
+    const el_tiny_result result = el_tiny_triangle_draw(record, look, target, painter->stats, &place->state->triangle);
+    if (result == EL_TINY_REFUSED) {
+        return draw_small(painter, renderer, name, look, target);
+    }
+    if (result == EL_TINY_DRAWN || !painter->goes_on) {
+        return 0;
+    }
+    const uint16_t state_name = place->name;
+    if (state_name == 0) {
+        return name;
+    }
+    place->state->order = name;
+    find_place(place, &painter->carrying, list);
+    return state_name;
+}
+
+#if EL_WITH_HIDDEN
+/* is_hidden for a carried triangle, whose corners are in its record. */
+static __attribute__((noinline)) bool record_is_hidden(el_painter *painter, const el_list *list, uint16_t name,
+                                                       const el_target *target)
+{
+    const el_point *const p = el_list_record(list, name)->at.points;
+    const int32_t x_begin = el_first_centre(el_min_i32(p[0].x, el_min_i32(p[1].x, p[2].x)));
+    const int32_t x_end = el_first_centre(el_max_i32(p[0].x, el_max_i32(p[1].x, p[2].x)));
+    const int32_t depth = el_min_i32(p[0].z, el_min_i32(p[1].z, p[2].z));
+    if (!el_hidden_is(painter->hidden, target, x_begin, x_end, (uint16_t)depth)) {
+        return false;
+    }
+    el_count(&painter->stats->triangles_hidden, 1);
+    return true;
+}
+#endif
+
+/* Draws what is carried on of a tiny triangle. As draw_named. */
+static uint16_t draw_tiny(el_painter *painter, const el_renderer *renderer, uint16_t name, const el_target *target)
+{
+    const el_list *const list = &renderer->list;
+    tiny_state *const state = el_list_at(list, name);
+#if EL_WITH_HIDDEN
+    if (el_hidden_is_likely(painter->hidden, painter->stats) && record_is_hidden(painter, list, state->order, target)) {
+        const uint16_t order = state->order;
+        const bool reaches_on = painter->goes_on && state->triangle.rows > target->y_end - target->y;
+        give_state(&painter->carrying, list, EL_STATE_TINY, name);
+        return reaches_on ? order : 0;
+    }
+#endif
+    if (el_tiny_triangle_go_on(&state->triangle, target, painter->stats) && painter->goes_on) {
+        return name;
+    }
+    give_state(&painter->carrying, list, EL_STATE_TINY, name);
+    return 0;
 }
 #endif
 
@@ -236,14 +347,19 @@ static EL_APART_IF_SMALL uint16_t draw_named(el_painter *painter, const el_rende
         return draw_any(painter, renderer, name, target);
     }
     carried_state *const state = el_list_at(&renderer->list, name);
+#if EL_WITH_SMALL_PLANES
+    if (state->is_tiny) {
+        return draw_tiny(painter, renderer, name, target);
+    }
+#endif
     el_triangle *const triangle = &state->triangle;
     const bool reaches_on = painter->goes_on && triangle->y_end > target->y_end;
 #if EL_WITH_HIDDEN
-    if (el_hidden_is_likely(painter->hidden, target, painter->stats) &&
+    if (el_hidden_is_likely(painter->hidden, painter->stats) &&
         is_hidden(painter, target, &triangle->surface, triangle->x_begin, triangle->x_end, state->depth)) {
         /* It is set up anew where it comes into sight, if it does. */
         const uint16_t order = state->order;
-        give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
+        give_state(&painter->carrying, &renderer->list, (el_state_kind)triangle->surface.shading, name);
         return reaches_on ? order : 0;
     }
 #endif
@@ -251,7 +367,7 @@ static EL_APART_IF_SMALL uint16_t draw_named(el_painter *painter, const el_rende
     if (reaches_on) {
         return name;
     }
-    give_state(&painter->carrying, &renderer->list, triangle->surface.shading, name);
+    give_state(&painter->carrying, &renderer->list, (el_state_kind)triangle->surface.shading, name);
     return 0;
 }
 
@@ -307,7 +423,7 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
     el_count(&painter->stats->vertices, stats.vertices);
     el_count(&painter->stats->pixels_prepass, stats.pixels);
 #if EL_WITH_HIDDEN
-    painter->hidden->pixels_before -= stats.pixels;
+    painter->hidden->likely_from -= stats.pixels;
 #endif
 }
 #endif
@@ -329,15 +445,22 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
 #if EL_WITH_HIDDEN
     el_hidden hidden;
     painter->hidden = &hidden;
-    el_hidden_begin(&hidden, painter->stats);
+    el_hidden_begin(&hidden, painter->stats, (uint32_t)((target.y_end - target.y) * target.width));
 #endif
 #if EL_WITH_PREPASS
     if (painter->first_depth) {
         draw_depth_first(painter, renderer, &target, fresh, carried);
     }
 #endif
-    uint16_t carried_order = order_of(c, list, carried);
     uint16_t *last = &c->first;
+#if EL_WITH_SMALL_PLANES
+    el_run_look look = {.run = 0};
+    tiny_place place;
+    const bool is_apart =
+        (EL_WITH_DEBUG_VIEWS && renderer->config.view != EL_DEBUG_PICTURE) || renderer->config.depth_prepass;
+    find_place(&place, c, list);
+#endif
+    uint16_t carried_order = order_of(c, list, carried);
     for (;;) {
         const bool is_fresh = (fresh == 0 ? NO_ORDER : fresh) < carried_order;
         const uint16_t listed = is_fresh ? fresh : carried;
@@ -346,8 +469,8 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
         }
         const uint16_t next = *(const uint16_t *)el_list_at(list, listed);
 #if EL_WITH_SMALL_PLANES
-        const uint16_t name =
-            is_fresh ? draw_record(painter, renderer, listed, &target) : draw_named(painter, renderer, listed, &target);
+        const uint16_t name = is_fresh && !is_apart ? draw_record(painter, renderer, listed, &target, &look, &place)
+                                                    : draw_named(painter, renderer, listed, &target);
 #else
         const uint16_t name = draw_named(painter, renderer, listed, &target);
 #endif
@@ -363,6 +486,11 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
         }
     }
     *last = 0;
+#if EL_WITH_SMALL_PLANES
+    if (place.name != 0) {
+        give_state(c, list, EL_STATE_TINY, place.name);
+    }
+#endif
 #if EL_WITH_HIDDEN
     painter->hidden = NULL;
 #endif

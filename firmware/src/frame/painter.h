@@ -10,17 +10,23 @@
 #include "base/stats.h"
 #include "raster/list.h"
 
+/* What sizes of states there are: one for each el_shading, and that of tiny triangles, which small code has not. */
+typedef enum el_state_kind {
+    EL_STATE_TINY = EL_SHADE_OVERDRAW + 1,
+    EL_STATE_KINDS = EL_SHADE_OVERDRAW + (EL_SMALL_CODE ? 1 : 2)
+} el_state_kind;
+
 /* Triangles that reach beyond the band in which they begin are carried on: their set-up state lives in what the list
  * has left of its memory. Where there is no room for a state, the triangle is set up anew in every band: slower, with the
  * same pixels. What is carried is a chain in the order of submission, of states and of such records, whose name tells
  * which it is: states lie behind the list. Each begins with the name of the next one. */
 typedef struct el_carrying {
-    uint16_t first;                             /* of the chain; 0: none */
-    uint16_t first_state;                       /* names from here on are states */
-    uint32_t begin;                             /* of the memory that there is, bytes from the list's base, ... */
-    uint32_t used;                              /* ... end of what is handed out so far ... */
-    uint32_t end;                               /* ... and of all */
-    uint16_t given_back[EL_SHADE_OVERDRAW + 1]; /* by shading; each begins with the next one's name; 0: none */
+    uint16_t first;                      /* of the chain; 0: none */
+    uint16_t first_state;                /* names from here on are states */
+    uint32_t begin;                      /* of the memory that there is, bytes from the list's base, ... */
+    uint32_t used;                       /* ... end of what is handed out so far ... */
+    uint32_t end;                        /* ... and of all */
+    uint16_t given_back[EL_STATE_KINDS]; /* each begins with the next one's name; 0: none */
 } el_carrying;
 
 typedef struct el_hidden el_hidden;

@@ -150,8 +150,8 @@ static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsi
 }
 
 /* Thumb-2 has conditional instructions, which take their time whether they do something or not: a pixel that is hidden jumps
- * over its stores instead. */
-#if defined(__thumb2__)
+ * over its stores instead. On Thumb-1 what is behind a branch is kept from being done before it. */
+#if defined(__thumb__)
 #define EL_KEEP_BRANCH() __asm__ volatile("")
 #else
 #define EL_KEEP_BRANCH() ((void)0)

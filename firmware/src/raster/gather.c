@@ -202,6 +202,19 @@ static inline void gather_points(const el_record *record, el_record_kind kind, e
     }
 }
 
+#if !EL_SMALL_CODE
+uint16_t el_list_flat_colour(const el_draw_state *draw, const el_record *record)
+{
+    const uint8_t *const plain = el_plain_colour(draw, record->index);
+    if (plain != NULL) {
+        return el_rgb565(plain[0], plain[1], plain[2]);
+    }
+    el_corner corners[3];
+    gather_points(record, EL_RECORD_PLAIN, corners);
+    return flat_colour(draw, record->index, corners);
+}
+#endif
+
 /* Texture coordinates and colours of the corners: a cut triangle's own, or its vertices'. */
 static EL_APART void gather_attributes(const el_draw_state *draw, const el_record *record, el_record_kind kind,
                                        el_corner corners[3])

@@ -3,6 +3,7 @@
 #define EL_RASTER_GATHER_H
 
 #include "raster/list.h"
+#include "raster/plain.h"
 #include "raster/triangle.h"
 
 #ifdef __cplusplus
@@ -11,6 +12,19 @@ extern "C" {
 
 /* The colour of a mesh's vertex under the draw's light, 0..255 in 8.8. `turned`: seen from its back. */
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3]);
+
+/* The colour of a flat triangle whose corners are in its record. */
+uint16_t el_list_flat_colour(const el_draw_state *draw, const el_record *record);
+
+/* The same, as they are looked at. */
+static inline uint16_t el_flat_colour(const el_run_look *look, const el_record *record)
+{
+    if (look->colours == NULL) {
+        return el_list_flat_colour(look->flat, record);
+    }
+    const uint8_t *const rgb = look->colours[record->index];
+    return el_rgb565(rgb[0], rgb[1], rgb[2]);
+}
 
 /* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
  * vertices it transformed for that. */

@@ -20,23 +20,23 @@ extern "C" {
 enum { EL_BLOCK_LOG2 = 5, EL_BLOCKS = (EL_MAX_WIDTH >> EL_BLOCK_LOG2) + 1 };
 
 typedef struct el_hidden {
-    uint32_t pixels_before;    /* of the stats, when the band began */
+    uint32_t likely_from;      /* of the stats' pixels */
     bool begun;                /* the rest is valid */
     uint8_t looks[EL_BLOCKS];  /* how often a block may still be searched */
     uint16_t depth[EL_BLOCKS]; /* no pixel of the block is beyond */
 } el_hidden;
 
-/* A band begins. */
-static inline void el_hidden_begin(el_hidden *hidden, const el_stats *stats)
+/* A band of so many pixels begins. */
+static inline void el_hidden_begin(el_hidden *hidden, const el_stats *stats, uint32_t pixels)
 {
     hidden->begun = false;
-    hidden->pixels_before = stats->pixels;
+    hidden->likely_from = stats->pixels + pixels;
 }
 
 /* Whether it is worth to ask: as many pixels as the band has were drawn into it. */
-static inline bool el_hidden_is_likely(const el_hidden *hidden, const el_target *target, const el_stats *stats)
+static inline bool el_hidden_is_likely(const el_hidden *hidden, const el_stats *stats)
 {
-    return stats->pixels - hidden->pixels_before >= (uint32_t)((target->y_end - target->y) * target->width);
+    return (int32_t)(stats->pixels - hidden->likely_from) >= 0;
 }
 
 /* Whether no pixel of a triangle could pass the depth test: it lies within columns [x_begin, x_end) and no part of it is

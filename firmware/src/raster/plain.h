@@ -31,23 +31,30 @@ static inline const uint8_t *el_plain_colour(const el_draw_state *draw, uint16_t
                                                                 : el_base_colour(draw, mesh->triangles[index][0]);
 }
 
-/* The points of a record whose triangle is flat, in a colour that is not computed, with depth: they and *colour are all of
- * it. NULL for others. */
-static inline const el_point *el_plain_points(const el_list *list, const el_record *record, uint16_t *colour)
+/* What the records of a run have in common on a screen of some width, looked up where another run begins. */
+typedef struct el_run_look {
+    const el_draw_state *flat;   /* whose triangles are flat, with depth, their corners in their records; else NULL */
+    const uint8_t (*colours)[3]; /* of its triangles, as they are drawn; NULL: see el_list_flat_colour */
+    uint32_t last_corner;        /* of tiny triangles: y * 2^16 + x; 0 where the screen is too wide for them */
+    uint16_t run;
+} el_run_look;
+
+/* Tiny triangles number the pixels of 17 rows with 14 bits (tiny_triangle.h). */
+enum { EL_TINY_SCREEN = (1 << 14) / 17 };
+
+static inline el_run_look el_look_at_run(const el_list *list, uint16_t name, int32_t width)
 {
-    const el_run *const run = el_list_run(list, record);
+    el_run_look look = {.run = name};
+    const el_run *const run = (const el_run *)el_list_at(list, name);
     const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
     /* By its material and as it is shaded: a texture that is left out has a colour of its own. */
-    if (draw->material->shading != EL_SHADE_FLAT || el_shading_of(draw) != EL_SHADE_FLAT ||
-        (draw->material->flags & EL_MATERIAL_NO_DEPTH) != 0 || (EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
-        return NULL;
+    if (draw->material->shading == EL_SHADE_FLAT && el_shading_of(draw) == EL_SHADE_FLAT &&
+        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !(EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
+        look.flat = draw;
+        look.colours = el_is_lit(draw->material) ? NULL : draw->mesh->triangle_colours;
+        look.last_corner = width <= EL_TINY_SCREEN ? (INT16_MAX << 16) + (uint32_t)(width * EL_SUBPIXELS) : 0U;
     }
-    const uint8_t *const plain = el_plain_colour(draw, record->index);
-    if (plain == NULL) {
-        return NULL;
-    }
-    *colour = el_rgb565(plain[0], plain[1], plain[2]);
-    return record->at.points;
+    return look;
 }
 
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "raster/fill.h"
+#include "raster/gather.h"
 #include "raster/small_plane.h"
 
 #if EL_WITH_SMALL_PLANES
@@ -138,12 +139,12 @@ void el_small_triangle_go_on(el_triangle *triangle, const el_target *target, el_
     }
 }
 
-bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_target *target, el_stats *stats,
+bool el_small_triangle_draw(const el_record *record, const el_run_look *look, const el_target *target, el_stats *stats,
                             el_triangle *rest)
 {
-    corner top = corner_of(&points[0]);
-    corner middle = corner_of(&points[1]);
-    corner bottom = corner_of(&points[2]);
+    corner top = corner_of(&record->at.points[0]);
+    corner middle = corner_of(&record->at.points[1]);
+    corner bottom = corner_of(&record->at.points[2]);
     put_in_order(&top, &middle);
     put_in_order(&middle, &bottom);
     put_in_order(&top, &middle);
@@ -169,6 +170,7 @@ bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_
         return false;
     }
 
+    const uint16_t colour = el_flat_colour(look, record);
     const el_small_frame frame = {
         .shape = shape,
         .x0 = x_of(&top),

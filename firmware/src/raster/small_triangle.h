@@ -4,7 +4,7 @@
 #ifndef EL_RASTER_SMALL_TRIANGLE_H
 #define EL_RASTER_SMALL_TRIANGLE_H
 
-#include "raster/list.h"
+#include "raster/plain.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,7 +15,7 @@ extern "C" {
 /* Draws a flat triangle with depth into the target and makes `rest`, unless it is NULL, what there is left to draw below, if
  * there is something. Returns false, and has done nothing, where the triangle is not small, reaches beside the screen, or has
  * no pixel's centre in its rows. */
-bool el_small_triangle_draw(const el_point points[3], uint16_t colour, const el_target *target, el_stats *stats,
+bool el_small_triangle_draw(const el_record *record, const el_run_look *look, const el_target *target, el_stats *stats,
                             el_triangle *rest);
 
 /* el_triangle_draw for such a triangle: flat, with depth, its edges short, its columns on the screen. */

@@ -57,6 +57,8 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/gather.c", "*", "set-up"),
     ("firmware/src/raster/small_*.c", "draw_rows", "pixels"),
     ("firmware/src/raster/small_*.c", "*", "set-up"),
+    ("firmware/src/raster/tiny_triangle.c", "draw_rows", "pixels"),
+    ("firmware/src/raster/tiny_triangle.c", "*", "set-up"),
     ("firmware/src/raster/triangle.c", "*", "set-up"),
     ("firmware/src/raster/plane.c", "*", "set-up"),
     ("firmware/src/raster/rows.c", "draw_rows", "rows"),
