@@ -62,6 +62,7 @@ COMPANIONS: dict[str, list[str]] = {
     "geometry/vertex.c": ["base/fixed.c", *DIVISION],
     "geometry/clip.c": ["base/fixed.c", *DIVISION],
     "geometry/cull.c": ["base/fixed.c"],
+    "geometry/sides.c": ["geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/plane.c": DIVISION,
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,

@@ -28,6 +28,16 @@ static void any_position(seeded *s, const el_mesh *mesh, int16_t position[3])
     }
 }
 
+static void expect_bounds(const el_side sides[EL_SIDES])
+{
+    for (unsigned i = 0; i < EL_SIDES; i++) {
+        TEST_ASSERT_INT_WITHIN((1 << 28) + (1 << 18), 0, sides[i].offset);
+        for (unsigned k = 0; k < 3; k++) {
+            TEST_ASSERT_INT_WITHIN(1 << 13, 0, sides[i].elements[k]);
+        }
+    }
+}
+
 static void test_what_is_beyond_a_side_has_its_bit(void)
 {
     unsigned outside = 0;
@@ -43,6 +53,7 @@ static void test_what_is_beyond_a_side_has_its_bit(void)
         }
         el_side sides[EL_SIDES];
         el_sides_make(sides, &transform, &t.mesh);
+        expect_bounds(sides);
         for (unsigned k = 0; k < POSITIONS; k++) {
             int16_t position[3];
             any_position(&s, &t.mesh, position);

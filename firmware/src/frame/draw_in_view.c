@@ -65,10 +65,11 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
     const el_screen_vertex *const vertices = d->vertices;
     const uint32_t slot_mask = from == CACHED ? d->slot_mask : UINT16_MAX;
     const uint16_t(*triangle)[3] = &d->mesh->triangles[index];
-    const el_screen_vertex *stretched = vertices + 3U * (index - d->stretch_begin);
+    const uint32_t step = from == STRETCHED ? 3U : 0U;
+    const el_screen_vertex *stretched = vertices + step * (index - d->stretch_begin);
     const uint32_t first = index;
     const uint32_t others = all_but_backs(d);
-    for (; index < end; index++, triangle++, stretched += 3) {
+    for (; index < end; index++, triangle++, stretched += step) {
         if (from == CACHED && !el_vertices_are_cached(d, *triangle)) {
             break;
         }
@@ -97,7 +98,7 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
             continue;
         }
         const int32_t row_end = el_min_i32(rows.end, culling.row_end);
-        if (next + (shared ? el_list_share_bytes(&list, rows.begin, row_end) : 0U) > last) {
+        if (next > last || (shared && el_list_share_bytes(&list, rows.begin, row_end) > (uint32_t)(last - next))) {
             break;
         }
         el_record *const record = (el_record *)(void *)next;

@@ -27,7 +27,7 @@ static void shorten(el_side *side, const form *f, unsigned row_shift, const int1
         most += el_abs_u64(f->elements[i]) << 13;
     }
     most += el_abs_u64(offset);
-    const int excess = el_bit_length_u64(most) - 30;
+    const int excess = el_bit_length_u64(most) - 28;
     const int shift = excess > 0 ? excess : 0;
     /* The offset loses less than 1, each product less than 2^15. */
     side->offset = (int32_t)(offset >> shift) + 3 * (1 << 15) + 1;

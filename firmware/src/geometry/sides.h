@@ -11,7 +11,7 @@
 enum { EL_SIDES = 6 };
 
 /* Where offset + the sum of element times position is negative, el_outcode has the side's bit.
- * The magnitudes of the offset and of 2^15 times the elements add up to less than 2^30 + 2^18. */
+ * |offset| < 2^28 + 2^18, |elements| <= 2^13: the sum is below 2^30. */
 typedef struct el_side {
     int32_t offset;
     int32_t elements[3];
