@@ -1,6 +1,6 @@
-/* Texels that are fetched and lit in the fastest way, against one at a time: triangles whose u and v are as el_triangle_sample has
- * them, with textures of every shape. Those of up to 2^14 texels are packed (raster/fill_texture.c), unless v moves too
- * fast; here its steps lie on both sides of that bound, and pieces are as long as they get. */
+/* Texels that are fetched and lit in the fastest way, against one at a time: triangles whose u and v are as
+ * el_triangle_sample has them, with textures of every shape. Those of up to 2^14 texels are packed (raster/texel_row.h),
+ * unless v moves too fast; here its steps lie on both sides of that bound, and pieces are as long as they get. */
 #include <string.h>
 
 #include "any_triangle.h"

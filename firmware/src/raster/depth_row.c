@@ -11,7 +11,10 @@
 #define KEEP_STEP(x) ((void)0)
 #endif
 
-enum { BLOCK = EL_DEPTH_BLOCK };
+enum {
+    BLOCK = EL_DEPTH_BLOCK,
+    COMPARED = 2 * BLOCK /* pixels that are compared before it is asked again */
+};
 
 /* Whether each of a block's depths is beyond `far`, as far as that is seen at once: in the bits that all of them have, which
  * are a depth that none is nearer than. What is empty, or far behind, has many of them. */
@@ -65,14 +68,14 @@ uint32_t el_depth_row_take(el_depth_row *row)
     uint16_t *depth = row->next;
     uint64_t z = row->z;
     while (depth != end) {
-        /* To where a word begins, or a block further. */
+        /* To where a word begins, or some further. */
         const uint16_t *compared = depth + 1;
         if (((uintptr_t)depth & 2U) == 0) {
             while (end - depth >= BLOCK && is_beyond(depth, (uint32_t)(z >> 32) + farther)) {
                 z = write_block(depth, z, step);
                 depth += BLOCK;
             }
-            compared = end - depth > BLOCK ? depth + BLOCK : end;
+            compared = end - depth > COMPARED ? depth + COMPARED : end;
         }
         while (depth != compared && (uint32_t)(z >> 32) < *depth) {
             *depth++ = (uint16_t)(z >> 32);
