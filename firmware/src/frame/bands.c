@@ -268,7 +268,8 @@ static inline void find_place(tiny_place *place, el_carrying *c, const el_list *
     place->state->is_tiny = true;
 }
 
-/* Draws a record that is listed in this band: nearly all of a mesh without textures or vertex colours are done at once. As draw_named. */
+/* Draws a record that is listed in this band: nearly all of a mesh without textures or vertex colours are done at once. As
+ * draw_named. */
 static inline uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
                                    const el_target *target, el_run_look *look, tiny_place *place)
 {

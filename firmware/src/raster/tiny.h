@@ -93,8 +93,8 @@ static inline uint32_t el_tiny_per_pixel(el_tiny_gradient g)
     return ((uint32_t)g.upper << 16) + (uint32_t)g.lower;
 }
 
-/* The plane from `row` on, through the top corner at (x0, y0) with depth z0 and those that d1 and d2 beyond. Returns false where the
- * differences do not fit. */
+/* The plane from `row` on, through the top corner at (x0, y0) with depth z0, and the others, d1 and d2 beyond it. Returns
+ * false where they do not fit. */
 static inline bool el_tiny_plane_make(el_tiny_plane *plane, const el_tiny_shape *shape, int32_t x0, int32_t y0,
                                       int32_t row, int32_t z0, int32_t d1, int32_t d2)
 {

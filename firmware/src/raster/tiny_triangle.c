@@ -49,7 +49,8 @@ static inline int32_t magnitude(int32_t a)
     return a < 0 ? -a : a;
 }
 
-/* The row so many above one of the target's: it may be above all of them, and then only what is far enough behind it is in memory. */
+/* The row so many above one of the target's: it may be above all of them, and then only what is far enough behind it is in
+ * memory. */
 static inline el_cursor cursor_at(const el_target *target, int32_t row, int32_t rows_above)
 {
     const int32_t pixels = (row - target->y - rows_above) * target->width; /* |rows| < 2^11 */
