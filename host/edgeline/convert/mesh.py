@@ -227,7 +227,7 @@ def weld(corners: Ints | Floats) -> tuple[Ints, Ints]:
     return first[order].astype(np.int64), rank[vertex_of.reshape(-1)].astype(np.int64)
 
 
-def has_area(corners: Ints) -> npt.NDArray[np.bool_]:
+def has_area(corners: Ints | Floats) -> npt.NDArray[np.bool_]:
     """Which of the triangles (m, 3, 3) in position units are not degenerate; exact."""
     product = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return np.asarray(np.any(product != 0, axis=1))

@@ -17,7 +17,7 @@ from edgeline.convert.clusters import with_clusters
 from edgeline.convert.gltf import parse_gltf
 from edgeline.convert.header import NamedMesh, name_from
 from edgeline.convert.locality import per_triangle
-from edgeline.convert.mesh import check_triangle_count, quantise, scale_log2_for
+from edgeline.convert.mesh import MAX_TRIANGLES, check_triangle_count, has_area, quantise, scale_log2_for
 from edgeline.convert.model import source_from
 from edgeline.convert.obj import Material, ObjModel, parse_mtl, parse_obj
 from edgeline.convert.options import DEFAULT_CREASE, DEFAULT_TEXTURE_SIZE
@@ -128,22 +128,27 @@ def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
     if args.triangles is not None or args.tolerance is not None:
         fewer = simplified(source, args.triangles, args.tolerance, steps)
         source = fewer.source
-    elif len(source.parts) == 1 and len(source.positions) > 2 * 61440:
-        check_triangle_count(len(source.positions))
-    if not args.no_normals:
+    elif len(source.positions) > 2 * len(source.parts) * MAX_TRIANGLES:
+        check_triangle_count(len(source.positions))  # before any work is done on them
+    if args.no_normals:
+        source = replace(source, normals=None)
+    else:
         source = with_normals(source, DEFAULT_CREASE if args.crease is None else args.crease)
     try:
         scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
         named, error, dropped, before = [], 0.0, 0, 0.0
         for i, (part_name, texture) in enumerate(zip(part_names(source, name), textures, strict=True)):
             rows = source.part_of == i
-            if not rows.any():
+            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
+                dropped += int(rows.sum())
                 continue
             part = quantise(soup_of(source.chosen(rows), texture), scale_log2)
             mesh = part.mesh if args.no_clusters else with_clusters(part.mesh)
             named.append(NamedMesh(part_name, mesh, texture))
             before += per_triangle(part.mesh) * len(mesh.triangles)
             error, dropped = max(error, part.position_error), dropped + part.dropped_triangles
+        if not named:
+            check_triangle_count(0)
     except EdgelineError as problem:
         text = str(problem)
         raise problem if text.startswith(source.name) else EdgelineError(f"{source.name}: {text}") from problem

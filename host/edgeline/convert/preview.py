@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     SubParsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
 SIMULATOR = "edgeline-sim"
+TREE = Path(__file__).resolve().parents[3]
+"""The project's folder, where the package is used from it."""
 TIMEOUT_S = 120
 PASSED_ON = ("panel", "rotation", "size", "shading", "eye", "look_at", "fov")
 
@@ -59,8 +61,7 @@ def find_simulator() -> str:
         if not Path(named).is_file():
             raise EdgelineError(f"EDGELINE_SIM={named}: there is no such file; build the simulator, or unset it")
         return named
-    tree = Path(__file__).resolve().parents[3]
-    built = [tree / "build" / "sim" / SIMULATOR, Path("build") / "sim" / SIMULATOR]
+    built = [TREE / "build" / "sim" / SIMULATOR, Path("build") / "sim" / SIMULATOR]
     found = shutil.which(SIMULATOR) or next((str(path.resolve()) for path in built if path.is_file()), None)
     if found is None:
         raise EdgelineError(
