@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
+from conftest import missing
 from edgeline.convert import command, preview
 from edgeline.convert.mesh import Soup, Texture
 from edgeline.convert.model import source_from
@@ -31,6 +34,15 @@ def convert(*words: object) -> int:
 
 def run_preview(*words: object) -> int:
     return _run("preview", *words)
+
+
+def library(name: str) -> ModuleType:
+    """A library of host/requirements-dev.txt that the package itself does without."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        missing(f"the package {name}")
+        raise
 
 
 def refused(*words: object) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from converting import convert
+from converting import convert, library
 from edgeline.convert import elm
 from edgeline.convert.pipeline import read_source
 from edgeline.convert.source import Source, placed
@@ -234,7 +234,7 @@ def test_up_scale_and_centre(read: Read) -> None:
 
 @pytest.mark.parametrize("kind", ["stl", "stl_ascii", "ply", "ply ascii", "glb", "gltf", "obj"])
 def test_files_of_trimesh_are_read_as_it_reads_them(tmp_path: Path, kind: str) -> None:
-    trimesh = pytest.importorskip("trimesh")
+    trimesh = library("trimesh")
     mesh = trimesh.Trimesh(MODEL.positions, MODEL.triangles, process=False, vertex_colors=MODEL.colours)
     suffix, _, encoding = kind.partition(" ")
     path = tmp_path / f"ring.{suffix.removesuffix('_ascii')}"
@@ -251,7 +251,7 @@ def test_files_of_trimesh_are_read_as_it_reads_them(tmp_path: Path, kind: str) -
 
 
 def test_scenes_of_trimesh_are_read_as_it_reads_them(tmp_path: Path) -> None:
-    trimesh = pytest.importorskip("trimesh")
+    trimesh = library("trimesh")
     numbers = np.random.default_rng(5)
     scene = trimesh.Scene()
     for i in range(5):

@@ -13,7 +13,8 @@ import pytest
 from converting import convert
 from edgeline import budget_facts as facts
 from edgeline.convert import elm, estimate
-from edgeline.convert.locality import cache_slots, transforms
+from edgeline.convert.clusters import with_clusters
+from edgeline.convert.locality import cache_slots, per_triangle, transforms
 from edgeline.convert.mesh import Mesh
 from models import ring, stl_binary
 
@@ -89,6 +90,33 @@ def test_the_cache_is_simulated_as_it_is() -> None:
             total += 1
         following = end
     assert transforms(mesh, slots) == total
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_clusters_follow_each_other_as_costs_least(tmp_path: Path, seed: int) -> None:
+    """Never more than along the curve alone, and much less than triangles in no order; the mesh stays the same."""
+    (tmp_path / "m.stl").write_bytes(stl_binary(ring(40 + 8 * seed, 32)))
+    convert(tmp_path / "m.stl", "-o", tmp_path / "m.elm", "--no-clusters", "--no-normals")
+    mesh = shuffled(elm.decode((tmp_path / "m.elm").read_bytes())[0], seed)
+    curve, best = with_clusters(mesh), with_clusters(mesh, per_triangle)
+    assert per_triangle(best) <= per_triangle(curve) < 0.5 * per_triangle(mesh)
+    assert with_clusters(mesh, lambda one: -float(one is not None)).triangles.tolist() == curve.triangles.tolist()
+    for one in (curve, best):
+        corners = [sorted(map(tuple, triangle)) for triangle in one.positions[one.triangles].tolist()]
+        assert sorted(corners) == sorted(sorted(map(tuple, t)) for t in mesh.positions[mesh.triangles].tolist())
+
+
+def test_the_chain_of_clusters_is_taken_where_it_is_better(tmp_path: Path) -> None:
+    source = np.random.default_rng(7)
+    gains = []
+    for _ in range(12):
+        around, across = source.integers(8, 40, 2)
+        model = ring(int(around), int(across))
+        (tmp_path / "m.stl").write_bytes(stl_binary(model))
+        convert(tmp_path / "m.stl", "-o", tmp_path / "m.elm", "--no-clusters", "--no-normals")
+        mesh, _ = elm.decode((tmp_path / "m.elm").read_bytes())
+        gains.append(per_triangle(with_clusters(mesh)) - per_triangle(with_clusters(mesh, per_triangle)))
+    assert min(gains) == 0.0 < max(gains)
 
 
 def test_ram_is_the_firmware_s_macro(model: Path, capsys: pytest.CaptureFixture[str]) -> None:

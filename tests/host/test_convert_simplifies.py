@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from converting import convert, refused
+from converting import convert, library, refused
 from edgeline.convert import simplify
 from edgeline.convert.mesh import Floats
 from edgeline.convert.nearest import Surface, nearest_on_triangle
@@ -20,6 +20,12 @@ from models import Gltf, checks, ply, ring, stl_binary
 
 MODEL = ring(64, 32)
 CORNERS = MODEL.positions[MODEL.triangles].astype(np.float64)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def extra() -> None:
+    library("fast_simplification")
+    library("tqdm")
 
 
 def source_of(positions: Floats) -> Source:

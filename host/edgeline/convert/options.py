@@ -88,6 +88,13 @@ def check_model_options(args: argparse.Namespace) -> None:
         raise EdgelineError(f"--texture-size {args.texture_size}: it is a power of two, 1024 at most")
 
 
+def _word(value: object) -> str:
+    """A value as the command line has it, paths without their folders."""
+    if isinstance(value, Path):
+        return value.name
+    return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
+
+
 def command_words(args: argparse.Namespace) -> str:
     """The command line with base names only: what another machine would be told to repeat."""
     words = ["edgeline", "convert", args.model.name]
@@ -97,5 +104,5 @@ def command_words(args: argparse.Namespace) -> str:
         if value is True:
             words.append(option)
         elif value not in (None, False):
-            words += [option, value.name if isinstance(value, Path) else f"{value:g}" if name != "up" else value]
+            words += [option, _word(value)]
     return shlex.join(words)

@@ -143,7 +143,7 @@ def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
                 dropped += int(rows.sum())
                 continue
             part = quantise(soup_of(source.chosen(rows), texture), scale_log2)
-            mesh = part.mesh if args.no_clusters else with_clusters(part.mesh)
+            mesh = part.mesh if args.no_clusters else with_clusters(part.mesh, per_triangle)
             named.append(NamedMesh(part_name, mesh, texture))
             before += per_triangle(part.mesh) * len(mesh.triangles)
             error, dropped = max(error, part.position_error), dropped + part.dropped_triangles
