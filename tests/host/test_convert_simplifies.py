@@ -18,7 +18,7 @@ from edgeline.convert.progress import Steps
 from edgeline.convert.source import Part, Source
 from models import Gltf, checks, ply, ring, stl_binary
 
-MODEL = ring(64, 32)
+MODEL = ring(48, 24)
 CORNERS = MODEL.positions[MODEL.triangles].astype(np.float64)
 
 
@@ -74,7 +74,7 @@ def test_the_distance_is_measured_both_ways() -> None:
     assert simplify.distance(square, square, Steps(False)) == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
-@pytest.mark.parametrize("budget", [100, 500, 2000])
+@pytest.mark.parametrize("budget", [100, 400, 1200])
 def test_budgets_are_kept_and_the_error_is_true(budget: int) -> None:
     found = simplify.simplified(source_of(CORNERS), budget, None, Steps(False))
     assert 0.9 * budget <= len(found.source.positions) <= budget
@@ -123,7 +123,7 @@ def test_colours_and_texture_coordinates_stay_in_their_places() -> None:
         uvs=MODEL.uvs[MODEL.triangles].astype(np.float64),
         colours=MODEL.colours[MODEL.triangles],
     )
-    fewer = simplify.simplified(source, 1000, None, Steps(False)).source
+    fewer = simplify.simplified(source, 700, None, Steps(False)).source
     assert fewer.uvs is not None and fewer.colours is not None
     x, _, z = np.moveaxis(fewer.positions, -1, 0)
     expected = (fewer.positions / 1.4 + 1) / 2 * 255
@@ -172,14 +172,14 @@ def test_the_report_says_what_was_lost(tmp_path: Path, capsys: pytest.CaptureFix
     paint = gltf.material(image={"bufferView": gltf.view(checks()), "mimeType": "image/png"})
     gltf.node(gltf.primitive(MODEL, attributes="pt", material=paint))
     (tmp_path / "m.glb").write_bytes(gltf.glb())
-    convert(tmp_path / "m.glb", "-o", tmp_path / "m.elm", "--triangles", 900, "--json")
+    convert(tmp_path / "m.glb", "-o", tmp_path / "m.elm", "--triangles", 600, "--json")
     found = json.loads(capsys.readouterr().out)
     lost = found["simplified"]
-    assert found["triangles"] <= 900 and lost["triangles_before"] == len(CORNERS)
+    assert found["triangles"] <= 600 and lost["triangles_before"] == len(CORNERS)
     assert lost["largest_fraction"] == pytest.approx(
         lost["largest_distance"] / np.linalg.norm([2.8, 0.8, 2.8]), rel=0.01
     )
-    convert(tmp_path / "m.glb", "-o", tmp_path / "m.elm", "--triangles", 900)
+    convert(tmp_path / "m.glb", "-o", tmp_path / "m.elm", "--triangles", 600)
     assert f"simplified from {len(CORNERS):,} triangles; surfaces " in capsys.readouterr().out
 
 

@@ -1,7 +1,7 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations, transparency, texture coordinates beyond
-the first use of an image. Refused: extensions that a file requires and that are not known here, compression above all.
+Left out, each with a note: points and lines, skins, morph targets, animations, transparency. Refused: extensions that a
+file requires and that are not known here, compression above all.
 """
 
 from __future__ import annotations

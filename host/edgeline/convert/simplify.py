@@ -21,8 +21,12 @@ from edgeline.errors import EdgelineError
 
 SAMPLES = 4000
 """Points per surface by which distances are measured, its corners beside them."""
+SAMPLES_TO_CHOOSE = 1000
 SEED = 1
 SEARCH_STEPS = 12
+AGGRESSIVE = (3.0, 4.0, 5.0, 6.0, 7.0)
+"""How fast the library lets its limit of an edge's error grow, gently first. Gentle is mostly nearer, but may not get
+there; which is nearest differs by up to six times, and no rule tells it but measuring."""
 FEWEST = 4
 
 
@@ -46,35 +50,35 @@ def _indexed(positions: Floats) -> tuple[Floats, Ints]:
     return positions.reshape(-1, 3)[first], triangles[(a != b) & (b != c) & (c != a)]
 
 
-def _fewer(vertices: Floats, triangles: Ints, target: int) -> Floats:
-    """About `target` triangles (m, 3, 3), or more where no more edges can be collapsed."""
+def _fewer(vertices: Floats, triangles: Ints, target: int, agg: float) -> Floats:
+    """About `target` triangles (m, 3, 3), or more where so aggressive a search collapses no more edges."""
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     size = float((high - low).max()) or 1.0
     points, faces = fast_simplification().simplify(
-        np.ascontiguousarray((vertices - low) / size), triangles.astype(np.int32), target_count=target
+        np.ascontiguousarray((vertices - low) / size), triangles.astype(np.int32), target_count=target, agg=agg
     )
     return np.asarray(np.asarray(points, dtype=np.float64)[np.asarray(faces, dtype=np.int64)] * size + low)
 
 
-def samples(positions: Floats) -> Floats:
-    """Corners of the triangles (m, 3, 3), SAMPLES of them at most, and as many points spread evenly over their area."""
+def samples(positions: Floats, count: int = SAMPLES) -> Floats:
+    """Corners of the triangles (m, 3, 3), `count` of them at most, and as many points spread evenly over their area."""
     numbers = np.random.default_rng(SEED)
     corners = np.unique(positions.reshape(-1, 3), axis=0)
-    if len(corners) > SAMPLES:
-        corners = corners[np.sort(numbers.choice(len(corners), SAMPLES, replace=False))]
+    if len(corners) > count:
+        corners = corners[np.sort(numbers.choice(len(corners), count, replace=False))]
     u, v = positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]
     areas = np.cumsum(np.linalg.norm(np.cross(u, v), axis=1))
     if areas[-1] == 0.0:
         return corners
-    rows = np.minimum(np.searchsorted(areas, numbers.random(SAMPLES) * areas[-1]), len(areas) - 1)
-    s, t = numbers.random((2, SAMPLES, 1))
+    rows = np.minimum(np.searchsorted(areas, numbers.random(count) * areas[-1]), len(areas) - 1)
+    s, t = numbers.random((2, count, 1))
     s, t = np.where(s + t > 1, 1 - s, s), np.where(s + t > 1, 1 - t, t)
     return np.concatenate([corners, positions[rows, 0] + u[rows] * s + v[rows] * t])
 
 
-def distance(a: Floats, b: Floats, steps: Steps) -> tuple[float, float]:
+def distance(a: Floats, b: Floats, steps: Steps, count: int = SAMPLES) -> tuple[float, float]:
     """Largest and mean distance between two surfaces (m, 3, 3), from samples of each to the whole of the other."""
-    there, back = samples(a), samples(b)
+    there, back = samples(a, count), samples(b, count)
     with steps.bar("measuring", len(there) + len(back)) as tick:
         found = [Surface(b).nearest(there, tick)[0], Surface(a).nearest(back, tick)[0]]
     return float(max(d.max() for d in found)), float(max(d.mean() for d in found))
@@ -147,19 +151,10 @@ def simplified(source: Source, budget: int | None, tolerance: float | None, step
     if len(triangles) == 0:
         raise EdgelineError(f"{source.name}: no triangle with an area: there is nothing to draw in this model")
     if budget is not None:
-        with steps.bar("simplifying", 1) as tick:
-            positions = _fewer(vertices, triangles, budget)
-            tick(1)
-        if len(positions) > budget:
-            raise EdgelineError(
-                f"{source.name}: --triangles {budget}: its loose parts leave {len(positions)} at least; "
-                "give more, or remove small parts in a modelling program"
-            )
+        positions = _nearest_within(source, vertices, triangles, budget, steps)
     else:
         assert tolerance is not None
         positions = _within(source.positions, vertices, triangles, tolerance, steps)
-    if len(positions) == 0:
-        raise EdgelineError(f"{source.name}: --triangles {budget}: nothing is left of it; give more triangles")
     largest, mean = distance(source.positions, positions, steps)
     if tolerance is not None and largest > tolerance:
         raise EdgelineError(
@@ -173,6 +168,32 @@ def _size(source: Source) -> float:
     return float(np.linalg.norm(np.ptp(source.positions, axis=(0, 1))))
 
 
+def _nearest_within(source: Source, vertices: Floats, triangles: Ints, budget: int, steps: Steps) -> Floats:
+    """`budget` triangles at most: of all ways to get there, the one that stays nearest."""
+    with steps.bar("simplifying", len(AGGRESSIVE)) as tick:
+        choices = []
+        for agg in AGGRESSIVE:
+            choices.append(_fewer(vertices, triangles, budget, agg))
+            tick(1)
+    fitting = [choice for choice in choices if 0 < len(choice) <= budget]
+    if not fitting:
+        least = min(len(choice) for choice in choices)
+        why = f"its loose parts leave {least} at least" if least else "nothing is left of it"
+        raise EdgelineError(
+            f"{source.name}: --triangles {budget}: {why}; give more, or remove small parts in a modelling program"
+        )
+    return min(fitting, key=lambda choice: distance(source.positions, choice, steps, SAMPLES_TO_CHOOSE))
+
+
+def _gentlest(vertices: Floats, triangles: Ints, target: int) -> Floats:
+    """`target` triangles at most, as gently as that can be had; or as few as there are."""
+    for agg in AGGRESSIVE:
+        fewer = _fewer(vertices, triangles, target, agg)
+        if len(fewer) <= target:
+            break
+    return fewer
+
+
 def _within(positions: Floats, vertices: Floats, triangles: Ints, tolerance: float, steps: Steps) -> Floats:
     """As few triangles as a search by halves finds whose surface is within `tolerance` of `positions`."""
     best = positions
@@ -181,8 +202,10 @@ def _within(positions: Floats, vertices: Floats, triangles: Ints, tolerance: flo
         if enough - too_few <= max(1, enough // 100):
             break
         target = max(too_few + 1, int((max(too_few, 1) * enough) ** 0.5))
-        fewer = _fewer(vertices, triangles, target)
-        if len(fewer) > 0 and len(fewer) <= len(best) and distance(positions, fewer, steps)[0] <= tolerance:
+        fewer = _gentlest(vertices, triangles, target)
+        # A few points mostly tell already that it is too far off.
+        counts = (SAMPLES_TO_CHOOSE, SAMPLES) if 0 < len(fewer) <= len(best) else ()
+        if counts and all(distance(positions, fewer, steps, count)[0] <= tolerance for count in counts):
             best, enough = fewer, target
         else:
             too_few = target
