@@ -207,6 +207,33 @@ def frames() -> str:
     )
 
 
+# By shading: the law of its pixels, whose terms are frame, pixel and row of a triangle.
+SHADING_LAWS = {"flat": "flat", "gouraud": "Gouraud", "textured": "textured"}
+
+
+def laws() -> str:
+    """Instructions per frame, pixel, row of a triangle, and triangle, by shading and core."""
+    content = json.loads((RESULTS / "growth.json").read_text(encoding="utf-8"))
+    measured = {(law["series"], law["variant"]): law["measured"] for law in content["laws"]}
+    triangles = measured["triangles", "sphere"]
+    table = {
+        shading: {
+            core: (
+                *(fit["costs"][term] for term in ("frame", "pixel", "row of a triangle")),
+                triangles[core]["costs"]["triangle"],
+            )
+            for core, fit in measured["pixels", law].items()
+        }
+        for shading, law in SHADING_LAWS.items()
+    }
+    source = f"{content['command']}, arm-none-eabi-gcc {content['compiler']}, QEMU {content['qemu']}"
+    return (
+        f"LAWS_SOURCE = {source!r}\n\n"
+        f"LAWS: dict[str, dict[str, tuple[float, float, float, float]]] = {table!r}\n"
+        '"""Instructions by shading and core: of a frame, and for each pixel, row of a triangle, and triangle."""\n'
+    )
+
+
 def code() -> str:
     """Code sizes, or nothing where they are not measured."""
     path = RESULTS / "code_size.json"
@@ -243,6 +270,8 @@ def facts() -> str:
         f"\nSTRUCT_BYTES: dict[int, dict[str, int]] = {structs!r}\n",
         '"""By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""\n\n',
         frames(),
+        "\n",
+        laws(),
         "\n",
         code(),
         "\n\n",

@@ -14,7 +14,7 @@ static const struct {
 } commands[] = {
     {"list", el_command_list, "[views]"},
     {"render", el_command_render,
-     "[--scene NAME | --mesh FILE.elm] [--size WxH] [--band N] [--arena BYTES]\n"
+     "[--scene NAME | --mesh FILE.elm [--mesh FILE.elm ...]] [--size WxH] [--band N] [--arena BYTES]\n"
      "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N] [--threads N]\n"
      "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats] [--depth-prepass]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"

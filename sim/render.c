@@ -27,7 +27,7 @@ static const char **text_of(render_options *o, int which)
 {
     enum { MESH = EL_OPTION_OWN };
     const char **const places[] = {
-        &o->common.subject.mesh,
+        &o->common.subject.meshes[o->common.subject.mesh_count],
         &o->png,
         &o->raw,
         &o->depth,
@@ -112,6 +112,10 @@ static bool parse(int argc, char **argv, render_options *o)
         }
         if (text != NULL) {
             *text = optarg;
+            if (which == MESH && ++o->common.subject.mesh_count == EL_SUBJECT_MESHES) {
+                el_report("render: more than %d meshes", EL_SUBJECT_MESHES - 1);
+                return false;
+            }
         } else if (which == CRC) {
             o->crc = true;
         } else if (which == STATS) {

@@ -20,12 +20,13 @@ static int32_t q16(double value)
     return (int32_t)lround(value * 65536.0);
 }
 
-static bool choose_shading(el_subject *subject, const el_subject_options *options)
+static bool choose_shading(el_subject_mesh *subject, const char *name, const el_subject_options *options)
 {
     static const char *const names[] = {"flat", "gouraud", "textured"};
     el_material *const material = &subject->material;
     const bool has_texture = subject->texture.texels != NULL;
-    material->shading = has_texture ? EL_SHADE_TEXTURED : EL_SHADE_GOURAUD;
+    const bool is_faceted = subject->mesh.triangle_colours != NULL && subject->mesh.colours == NULL;
+    material->shading = has_texture ? EL_SHADE_TEXTURED : is_faceted ? EL_SHADE_FLAT : EL_SHADE_GOURAUD;
     if (options->shading != NULL) {
         unsigned i = 0;
         while (i < 3 && strcmp(options->shading, names[i]) != 0) {
@@ -38,7 +39,7 @@ static bool choose_shading(el_subject *subject, const el_subject_options *option
         material->shading = (uint8_t)i;
     }
     if (material->shading == EL_SHADE_TEXTURED && !has_texture) {
-        el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", options->mesh);
+        el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", name);
         return false;
     }
     material->flags = EL_MATERIAL_FLAT_MEAN;
@@ -47,17 +48,61 @@ static bool choose_shading(el_subject *subject, const el_subject_options *option
     return true;
 }
 
+typedef struct sphere {
+    double centre[3];
+    double radius;
+} sphere;
+
+static sphere sphere_of(const el_mesh *mesh)
+{
+    const double unit = ldexp(1, mesh->scale_log2);
+    sphere result = {.radius = (mesh->radius > 0 ? mesh->radius : 1) * unit};
+    for (int i = 0; i < 3; i++) {
+        result.centre[i] = mesh->centre[i] * unit;
+    }
+    return result;
+}
+
+/* Around the spheres of all meshes: that of the only one, or else around the middle of their box. */
+static sphere sphere_around(const el_subject *subject)
+{
+    sphere result = sphere_of(&subject->meshes[0].mesh);
+    if (subject->mesh_count == 1) {
+        return result;
+    }
+    for (int i = 0; i < 3; i++) {
+        double low = INFINITY;
+        double high = -INFINITY;
+        for (unsigned k = 0; k < subject->mesh_count; k++) {
+            const sphere one = sphere_of(&subject->meshes[k].mesh);
+            low = fmin(low, one.centre[i] - one.radius);
+            high = fmax(high, one.centre[i] + one.radius);
+        }
+        result.centre[i] = (low + high) / 2;
+    }
+    result.radius = 0;
+    for (unsigned k = 0; k < subject->mesh_count; k++) {
+        const sphere one = sphere_of(&subject->meshes[k].mesh);
+        double squared = 0;
+        for (int i = 0; i < 3; i++) {
+            squared += (one.centre[i] - result.centre[i]) * (one.centre[i] - result.centre[i]);
+        }
+        result.radius = fmax(result.radius, sqrt(squared) + one.radius);
+    }
+    return result;
+}
+
 /* By default the camera stands where the bounding sphere just fits the picture's narrower side, half to the right and
  * above. */
 static bool place_camera(el_subject *subject, const el_subject_options *options, double aspect)
 {
-    const double unit = ldexp(1, subject->mesh.scale_log2);
-    const double radius = (subject->mesh.radius > 0 ? subject->mesh.radius : 1) * unit;
+    const sphere all = sphere_around(subject);
+    const double radius = all.radius;
     double target[3];
     double eye[3];
     double fov = 45;
     for (int i = 0; i < 3; i++) {
-        target[i] = subject->mesh.centre[i] * unit;
+        target[i] = all.centre[i];
     }
     if (options->fov != NULL && !el_option_number("--fov", options->fov, 1, 179, &fov)) {
         return false;
@@ -76,7 +121,7 @@ static bool place_camera(el_subject *subject, const el_subject_options *options,
         return false;
     }
     for (int i = 0; i < 3; i++) {
-        const double difference = subject->mesh.centre[i] * unit - eye[i];
+        const double difference = all.centre[i] - eye[i];
         distance += difference * difference;
     }
     distance = sqrt(distance);
@@ -97,7 +142,7 @@ static bool place_camera(el_subject *subject, const el_subject_options *options,
     int32_t target_q16[3];
     for (int i = 0; i < 3; i++) {
         if (fabs(eye[i]) > max_position || far > max_position) {
-            el_report("%s is too large for the default camera: give --eye and --far", options->mesh);
+            el_report("%s is too large for the default camera: give --eye and --far", options->meshes[0]);
             return false;
         }
         eye_q16[i] = q16(eye[i]);
@@ -114,33 +159,45 @@ static bool place_camera(el_subject *subject, const el_subject_options *options,
     return status == EL_OK;
 }
 
-static bool open_mesh(el_subject *subject, const el_subject_options *options, double aspect)
+static bool open_mesh(el_subject *subject, const char *name, const el_subject_options *options)
 {
+    el_subject_mesh *const one = &subject->meshes[subject->mesh_count];
     size_t size;
-    subject->file = el_file_read(options->mesh, &size);
-    if (subject->file == NULL) {
+    one->file = el_file_read(name, &size);
+    if (one->file == NULL) {
         return false;
     }
-    const el_elm_status status = el_elm_open(subject->file, size, &subject->mesh, &subject->texture);
+    subject->mesh_count++;
+    const el_elm_status status = el_elm_open(one->file, size, &one->mesh, &one->texture);
     if (status != EL_ELM_OK) {
-        el_report("%s: %s", options->mesh, el_elm_message(status));
+        el_report("%s: %s", name, el_elm_message(status));
         return false;
     }
-    subject->material.colour[0] = 200;
-    subject->material.colour[1] = 200;
-    subject->material.colour[2] = 200;
-    return choose_shading(subject, options) && place_camera(subject, options, aspect);
+    one->material.colour[0] = 200;
+    one->material.colour[1] = 200;
+    one->material.colour[2] = 200;
+    return choose_shading(one, name, options);
+}
+
+static bool open_meshes(el_subject *subject, const el_subject_options *options, double aspect)
+{
+    for (unsigned i = 0; i < options->mesh_count; i++) {
+        if (!open_mesh(subject, options->meshes[i], options)) {
+            return false;
+        }
+    }
+    return place_camera(subject, options, aspect);
 }
 
 bool el_subject_open(el_subject *subject, const el_subject_options *options, double aspect)
 {
     *subject = (el_subject){0};
-    if (options->mesh != NULL) {
+    if (options->mesh_count > 0) {
         if (options->scene != NULL) {
             el_report("--scene and --mesh exclude each other");
             return false;
         }
-        return open_mesh(subject, options, aspect);
+        return open_meshes(subject, options, aspect);
     }
     if (options->eye != NULL || options->look_at != NULL || options->fov != NULL || options->near != NULL ||
         options->far != NULL) {
@@ -157,7 +214,9 @@ bool el_subject_open(el_subject *subject, const el_subject_options *options, dou
 
 void el_subject_close(el_subject *subject)
 {
-    free(subject->file);
+    for (unsigned i = 0; i < subject->mesh_count; i++) {
+        free(subject->meshes[i].file);
+    }
     *subject = (el_subject){0};
 }
 
@@ -178,7 +237,9 @@ el_status el_subject_play(const el_subject *subject, uint32_t frame, el_renderer
     const el_pose pose = el_pose_identity();
     int more;
     do {
-        status = el_draw(renderer, &subject->mesh, &pose, &subject->material);
+        for (unsigned i = 0; i < subject->mesh_count && status == EL_OK; i++) {
+            status = el_draw(renderer, &subject->meshes[i].mesh, &pose, &subject->meshes[i].material);
+        }
         more = el_frame_next(renderer);
     } while (more > 0);
     return more < 0 ? (el_status)more : status;

@@ -1,4 +1,5 @@
-/* What is drawn: a scene by its name, or a mesh from a file with a camera from the command line. */
+/* What is drawn: a scene by its name, or meshes from files, drawn one after the other where they lie, with a camera from
+ * the command line. */
 #ifndef EL_SIM_SUBJECT_H
 #define EL_SIM_SUBJECT_H
 
@@ -8,19 +9,28 @@
 #include "edgeline.h"
 #include "scene.h"
 
+enum { EL_SUBJECT_MESHES = 65 }; /* places for names of files; one stays free */
+
 /* The command line's wishes; NULL where there is none. `shading` is a mesh's; who plays a scene sees to it himself. */
 typedef struct el_subject_options {
     const char *scene;
-    const char *mesh;
+    const char *meshes[EL_SUBJECT_MESHES];
+    unsigned mesh_count;
     const char *eye, *look_at, *fov, *near, *far, *shading;
 } el_subject_options;
 
-typedef struct el_subject {
-    const el_scene *scene; /* or: */
+/* A mesh and the file that holds it. */
+typedef struct el_subject_mesh {
     uint8_t *file;
     el_mesh mesh;
     el_texture texture;
     el_material material;
+} el_subject_mesh;
+
+typedef struct el_subject {
+    const el_scene *scene; /* or: */
+    el_subject_mesh meshes[EL_SUBJECT_MESHES];
+    unsigned mesh_count; /* of those that are open */
     el_camera camera;
 } el_subject;
 

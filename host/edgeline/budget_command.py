@@ -225,8 +225,8 @@ def add_parser(subparsers: SubParsers) -> None:
     command.add_argument(
         "--size", type=_size, metavar="WxH", help="of the picture; default: the glass, its long side lying"
     )
-    command.add_argument("--spi", type=_hertz, metavar="HZ", help="clock of the display's wire, such as 62.5M")
-    command.add_argument("--cpu", type=_hertz, metavar="HZ", help="clock of the processor, such as 125M")
+    command.add_argument("--spi", type=hertz, metavar="HZ", help="clock of the display's wire, such as 62.5M")
+    command.add_argument("--cpu", type=hertz, metavar="HZ", help="clock of the processor, such as 125M")
     command.add_argument("--core", choices=CORES, default=CORES[0], help=f"default: {CORES[0]}")
     command.add_argument(
         "--band", type=_number(1, facts.EL_MAX_HEIGHT), default=8, metavar="N", help="lines; default: 8"
@@ -301,7 +301,7 @@ def _scaled(text: str, units: dict[str, int]) -> int | None:
     return int(value) if value.denominator == 1 and 0 < value < 1 << 40 else None
 
 
-def _hertz(text: str) -> int:
+def hertz(text: str) -> int:
     value = _scaled(text, {"k": 1000, "K": 1000, "M": 1000**2, "G": 1000**3})
     if value is None:
         raise argparse.ArgumentTypeError(f"'{text}' is no frequency in Hz, such as 62500000 or 62.5M")

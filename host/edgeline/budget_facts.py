@@ -129,6 +129,15 @@ FRAMES: dict[str, tuple[str, dict[str, int]]] = {
 }
 """Of scenes at 320 x 240: what they are, and instructions of their first frame by core."""
 
+LAWS_SOURCE = "tests/bench/run --record-growth, arm-none-eabi-gcc 12.2.1, QEMU 7.2.22"
+
+LAWS: dict[str, dict[str, tuple[float, float, float, float]]] = {
+    "flat": {"cortex-m0plus": (93306.94, 12.23, 133.35, 465.09), "cortex-m4f": (50193.18, 9.66, 53.95, 240.64)},
+    "gouraud": {"cortex-m0plus": (123691.04, 25.46, 214.71, 465.09), "cortex-m4f": (67463.19, 18.94, 89.11, 240.64)},
+    "textured": {"cortex-m0plus": (165967.27, 25.37, 2038.68, 465.09), "cortex-m4f": (80139.84, 15.19, 865.14, 240.64)},
+}
+"""Instructions by shading and core: of a frame, and for each pixel, row of a triangle, and triangle."""
+
 CODE_SOURCE = "arm-none-eabi-gcc 12.2.1, cortex-m0plus, -Os"
 CODE_OPTIONS: dict[str, int] = {
     "all": 16367,

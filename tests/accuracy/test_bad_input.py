@@ -37,6 +37,7 @@ BAD_RENDERS = {
     "mesh missing": ["--mesh", "missing.elm"],
     "mesh is a folder": ["--mesh", "."],
     "scene and mesh": ["--scene", "S1", "--mesh", "missing.elm"],
+    "65 meshes": ["--mesh", "missing.elm"] * 65,
 }
 
 BAD_CAMERAS = {

@@ -9,9 +9,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from converting import soup_from
 from edgeline.convert import mesh as mesh_module
 from edgeline.convert.mesh import Floats, Soup, bounding_sphere, enclosing_radius, quantise, scale_log2_for
-from edgeline.convert.model import soup_from
 from edgeline.convert.normals import face_vectors, smooth_normals
 from edgeline.convert.obj import parse_obj
 from edgeline.convert.triangulate import newell_normal, triangulate
@@ -107,7 +107,7 @@ def test_a_cube_keeps_its_edges_and_shares_what_it_can() -> None:
     assert (len(sharp.triangles), len(sharp.positions)) == (12, 24)
     round_cube = quantise(soup_from(model, {}, None, crease_degrees=180)).mesh
     assert (len(round_cube.triangles), len(round_cube.positions)) == (12, 8)
-    bare = quantise(soup_from(model, {}, None, with_normals=False)).mesh
+    bare = quantise(soup_from(model, {}, None, normals=False)).mesh
     assert bare.normals is None
     assert len(bare.positions) == 8
     assert sharp.normals is not None

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from converting import soup_from
 from edgeline.convert.mesh import Texture, quantise
-from edgeline.convert.model import soup_from
 from edgeline.convert.obj import NONE, ObjModel, parse_mtl, parse_obj
 from edgeline.errors import EdgelineError
 
@@ -104,7 +104,7 @@ def test_far_texture_coordinates_move_by_whole_repetitions() -> None:
 
 def test_texture_coordinates_out_of_range_name_the_vertex() -> None:
     text = QUAD + "vt 0 0\nvt 50 0\nvt 50 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
-    with pytest.raises(EdgelineError, match=r"^model.obj:9: vertex \d has texture coordinate .* --texture-size$"):
+    with pytest.raises(EdgelineError, match=r"^model.obj:9: corner \d has texture coordinate .* --texture-size$"):
         soup_from(parse(text), {}, Texture(np.zeros((128, 128), np.uint16)))
 
 

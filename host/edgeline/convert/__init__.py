@@ -1,5 +1,7 @@
 """From models that programs and people make to meshes that a microcontroller draws from flash.
 
-The way of the data: `obj` reads a file, `model` assembles triangles from it (with `triangulate`, `normals`, `texture`),
-`mesh` quantises and welds them, `header` and `elm` write the result, `command` is the command line around all that.
+The way of the data: `obj` with `model`, `stl`, `ply`, and `gltf` with `gltf_file`, read a file into a `source` (with
+`triangulate`, `texture`); `simplify` makes it smaller (with `nearest`), `normals` smooth; `mesh` quantises and welds,
+`clusters` puts in order, `header` and `elm` write. `pipeline` is that way; `command` and `preview` are command lines
+around it, `report` what they say, with `locality` and `estimate`.
 """

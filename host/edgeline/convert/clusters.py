@@ -10,6 +10,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,6 +27,9 @@ LEAST_ALIKE = math.cos(math.radians(30))
 """Cosine between a triangle's normal and its cluster's."""
 NO_CONE = 255
 SPHERE_STEPS = 24
+REMEMBERED = 8
+FORGETTING = 0.3
+"""How many clusters back shared vertices count, and how much less for each."""
 
 Vector = tuple[float, float, float]
 
@@ -204,12 +208,48 @@ def _cluster(mesh: Mesh, corners: Ints, vertex_count: int) -> tuple[object, ...]
     return len(corners), vertex_count, centre, radius, axis, spread, _least_altitude(corners)
 
 
-def with_clusters(mesh: Mesh) -> Mesh:
-    """`mesh` in the order of its clusters, with them; as it is where it has too few triangles."""
+def _chained(clusters: list[list[int]], triangles: Ints) -> list[list[int]]:
+    """The same clusters, each followed by the one that shares most with the last few."""
+    vertices = [set(triangles[members].reshape(-1).tolist()) for members in clusters]
+    users: defaultdict[int, list[int]] = defaultdict(list)
+    for number, named in enumerate(vertices):
+        for vertex in sorted(named):
+            users[vertex].append(number)
+    left = dict.fromkeys(range(len(clusters)))
+    order: list[int] = []
+    while left:
+        shared: defaultdict[int, float] = defaultdict(float)
+        for age, number in enumerate(reversed(order[-REMEMBERED:])):
+            for vertex in sorted(vertices[number]):
+                for user in users[vertex]:
+                    if user in left:
+                        shared[user] += 1.0 / (1.0 + FORGETTING * age)
+        following = max(sorted(shared), key=lambda k: shared[k] / len(vertices[k])) if shared else next(iter(left))
+        order.append(following)
+        del left[following]
+    return [clusters[number] for number in order]
+
+
+def with_clusters(mesh: Mesh, cost: Callable[[Mesh], float] | None = None) -> Mesh:
+    """`mesh` in the order of its clusters, with them; as it is where it has too few triangles.
+
+    They follow a curve through the mesh; with a `cost`, or each other by the vertices they share, if that costs less.
+    """
     if len(mesh.triangles) < WORTHWHILE:
         return mesh
     shape = _shape(mesh)
     clusters = _join_small(_grow(shape), shape)
+    best = _arranged(mesh, clusters)
+    if cost is not None:
+        chained = _chained(clusters, mesh.triangles.astype(np.int64))
+        other = _arranged(mesh, chained)
+        if cost(other) < cost(best):
+            clusters, best = chained, other
+    return replace(best, clusters=_describe(best, [len(members) for members in clusters]))
+
+
+def _arranged(mesh: Mesh, clusters: list[list[int]]) -> Mesh:
+    """`mesh` with its triangles as the clusters have them, its vertices as the triangles first name them."""
     order = np.concatenate([np.asarray(members, dtype=np.int64) for members in clusters])
     named = mesh.triangles[order].astype(np.int64)
     first, position = np.unique(named.reshape(-1), return_index=True)
@@ -219,8 +259,7 @@ def with_clusters(mesh: Mesh) -> Mesh:
     rank = np.empty(len(vertices), dtype=np.int64)
     rank[vertices] = np.arange(len(vertices))
     triangles = rank[named]
-
-    moved = replace(
+    return replace(
         mesh,
         positions=mesh.positions[vertices],
         triangles=triangles.astype(np.uint16),
@@ -229,7 +268,6 @@ def with_clusters(mesh: Mesh) -> Mesh:
         normals=None if mesh.normals is None else mesh.normals[vertices],
         uvs=None if mesh.uvs is None else mesh.uvs[vertices],
     )
-    return replace(moved, clusters=_describe(moved, [len(members) for members in clusters]))
 
 
 def _describe(mesh: Mesh, counts: list[int]) -> npt.NDArray[np.void]:

@@ -155,7 +155,7 @@ class Quantised:
     dropped_triangles: int
 
 
-SPLIT_ADVICE = "split the model into several meshes, or reduce it in a modelling program"
+SPLIT_ADVICE = "split the model into several meshes, or simplify it with --triangles"
 
 
 def check_triangle_count(count: int) -> None:
@@ -227,15 +227,17 @@ def weld(corners: Ints | Floats) -> tuple[Ints, Ints]:
     return first[order].astype(np.int64), rank[vertex_of.reshape(-1)].astype(np.int64)
 
 
-def has_area(corners: Ints) -> npt.NDArray[np.bool_]:
+def has_area(corners: Ints | Floats) -> npt.NDArray[np.bool_]:
     """Which of the triangles (m, 3, 3) in position units are not degenerate; exact."""
     product = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return np.asarray(np.any(product != 0, axis=1))
 
 
-def quantise(soup: Soup) -> Quantised:
-    """Makes a mesh of `soup` at the smallest scale that holds it. Raises EdgelineError where limits are exceeded."""
-    scale_log2 = scale_log2_for(float(np.abs(soup.positions).max(initial=0.0)))
+def quantise(soup: Soup, scale_log2: int | None = None) -> Quantised:
+    """Makes a mesh of `soup`, by default at the smallest scale that holds it. Raises EdgelineError where limits are
+    exceeded."""
+    if scale_log2 is None:
+        scale_log2 = scale_log2_for(float(np.abs(soup.positions).max(initial=0.0)))
     exact = np.ldexp(soup.positions, -scale_log2)
     positions = np.rint(exact).astype(np.int64)
     error = math.ldexp(float(np.abs(positions - exact).max(initial=0.0)), scale_log2)

@@ -1,24 +1,23 @@
-"""From what an OBJ file says to a soup of triangles: polygons cut up, attributes gathered, all of it checked.
+"""From what an OBJ file says to triangles: polygons cut up, attributes gathered, all of it checked.
 
-This is where an OBJ's conventions end: v of a texture coordinate turns from up to down, fractions become texels.
+This is where an OBJ's conventions end: v of a texture coordinate turns from up to down.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import MAX_TRIANGLES, TEXEL_ONE, Floats, Ints, Soup, Texture, check_triangle_count
-from edgeline.convert.normals import smooth_normals, unit
-from edgeline.convert.obj import NONE, Face, Material, ObjModel
+from edgeline.convert.mesh import Floats, Ints
+from edgeline.convert.obj import NONE, Material, ObjModel
+from edgeline.convert.source import Part, Picture, Source, check_count, check_positions, to_bytes
 from edgeline.convert.triangulate import triangulate
 
 DEFAULT_COLOUR = 0.8, 0.8, 0.8
 """Of faces without a material in a model with materials; it is Wavefront's default too."""
-UV_LIMIT = 32767
 
 
 @dataclass(frozen=True)
@@ -32,73 +31,32 @@ class Corners:
 
 
 def gather(model: ObjModel, positions: Floats) -> Corners:
-    """Triangles out of the model's faces; `positions` are its vertices as they will be stored, (n, 3)."""
-    # Some triangles may have no area and be dropped later; twice too many are too many before any work is done on them.
-    count = sum(len(face.positions) - 2 for face in model.faces)
-    if count > 2 * MAX_TRIANGLES:
-        check_triangle_count(count)
+    """Triangles out of the model's faces; `positions` are its vertices, (n, 3)."""
+    check_count(model.name, sum(len(face.positions) - 2 for face in model.faces))
     rows: list[tuple[int, ...]] = []
     for number, face in enumerate(model.faces):
-        for triangle in triangulate(positions[list(face.positions)]):
+        with np.errstate(all="ignore"):  # positions too large to compute with are found later, with a message
+            cut = triangulate(positions[list(face.positions)])
+        for triangle in cut:
             row = [column[i] for column in (face.positions, face.uvs, face.normals) for i in triangle]
             rows.append((*row, number))
     table = np.array(rows, dtype=np.int64)
     return Corners(table[:, 0:3], table[:, 3:6], table[:, 6:9], table[:, 9])
 
 
-def placed(model: ObjModel, scale: float, centre: bool) -> Floats:
-    """The vertices (n, 3) times `scale`, with the middle of their bounding box at the origin when `centre`."""
-    positions = np.array(model.positions, dtype=np.float64)
-    if centre:
-        positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
-    return np.asarray(positions * scale)
-
-
-def corner_normals(model: ObjModel, corners: Corners, positions: Floats, crease_degrees: float) -> Floats:
-    """Unit normals (m, 3, 3): the file's, and smooth ones where it has none or one without length."""
-    computed = smooth_normals(positions, crease_degrees)
+def corner_normals(model: ObjModel, corners: Corners) -> Floats | None:
+    """The file's normals (m, 3, 3), 0 where a corner has none."""
     if not model.normals:
-        return computed
-    given = np.array(model.normals, dtype=np.float64)[corners.normals]
-    usable = (corners.normals != NONE) & np.any(given != 0, axis=2)
-    return np.where(usable[:, :, None], unit(given), computed)
+        return None
+    return np.array([*model.normals, (0.0, 0.0, 0.0)], dtype=np.float64)[corners.normals]  # index NONE, -1, is the last
 
 
-def texel_coordinates(model: ObjModel, corners: Corners, texture: Texture) -> Floats:
-    """Texture coordinates (m, 3, 2) in texels, v down. Raises EdgelineError where one is missing or out of range.
-
-    As a texture repeats, all coordinates are moved by whole repetitions together when they would not fit otherwise.
-    """
-    missing = np.any(corners.uvs == NONE, axis=1)
-    if missing.any():
-        line = model.faces[corners.faces[np.argmax(missing)]].line
-        text = "a corner without a texture coordinate (v/vt); unwrap the model, or give --no-texture"
-        raise model.error(line, text)
-    height, width = texture.texels.shape
-    texels = np.array(model.uvs, dtype=np.float64)[corners.uvs]
-    texels = np.stack([texels[..., 0] * width, (1.0 - texels[..., 1]) * height], axis=2)
-    limit = UV_LIMIT / TEXEL_ONE
-    if np.abs(texels).max() > limit:
-        period = np.array([width, height], dtype=np.float64)
-        middle = (texels.min(axis=(0, 1)) + texels.max(axis=(0, 1))) / 2
-        texels = texels - np.rint(middle / period) * period
-    outside = np.any(np.abs(texels) > limit, axis=2)
-    if outside.any():
-        row, corner = np.unravel_index(int(np.argmax(outside)), outside.shape)
-        face = model.faces[corners.faces[row]]
-        u, v = model.uvs[corners.uvs[row, corner]]
-        vertex = corners.positions[row, corner] + 1
-        text = (
-            f"vertex {vertex} has texture coordinate {u:g} {v:g}, more than {limit:g} texels "
-            f"of a {width}x{height} texture; repeat it less often, or give a smaller --texture-size"
-        )
-        raise model.error(face.line, text)
-    return texels
-
-
-def to_bytes(colours: Sequence[tuple[float, float, float]]) -> npt.NDArray[np.uint8]:
-    """Colours of 0 to 1 as bytes, rounded to nearest."""
-    return np.rint(np.array(colours, dtype=np.float64) * 255).astype(np.uint8)
+def corner_uvs(model: ObjModel, corners: Corners) -> Floats | None:
+    """The file's texture coordinates (m, 3, 2), NaN where a corner has none."""
+    if not model.uvs:
+        return None
+    uvs = np.array([*model.uvs, (np.nan, np.nan)], dtype=np.float64)[corners.uvs]
+    return np.stack([uvs[..., 0], 1.0 - uvs[..., 1]], axis=2)
 
 
 def vertex_colours(model: ObjModel, corners: Corners) -> npt.NDArray[np.uint8] | None:
@@ -109,49 +67,57 @@ def vertex_colours(model: ObjModel, corners: Corners) -> npt.NDArray[np.uint8] |
     return to_bytes([model.colours.get(i, white) for i in range(len(model.positions))])[corners.positions]
 
 
-def material_colours(model: ObjModel, corners: Corners, materials: dict[str, Material]) -> npt.NDArray[np.uint8] | None:
+def material_colours(
+    model: ObjModel, face_materials: Ints, materials: dict[str, Material]
+) -> npt.NDArray[np.uint8] | None:
     """Colours per triangle (m, 3) when a material in use has one."""
     colours = [materials.get(name, Material()).colour for name in model.materials]
     used = {face.material for face in model.faces if face.material != NONE}
     if not any(colours[i] is not None for i in used):
         return None
     palette = to_bytes([colour or DEFAULT_COLOUR for colour in [*colours, None]])  # index NONE, -1, is the default
-    of_face = np.array([face.material for face in model.faces], dtype=np.int64)
-    return palette[of_face[corners.faces]]
+    return palette[face_materials]
 
 
-def textured_face(model: ObjModel, materials: dict[str, Material]) -> dict[str, Face]:
-    """For each image that materials in use name, the first face that has it."""
-    images: dict[str, Face] = {}
-    for face in model.faces:
-        if face.material != NONE:
-            image = materials.get(model.materials[face.material], Material()).image
-            if image is not None:
-                images.setdefault(image, face)
-    return images
-
-
-def soup_from(
+def image_parts(
     model: ObjModel,
+    face_materials: Ints,
     materials: dict[str, Material],
-    texture: Texture | None,
-    *,
-    crease_degrees: float = 60.0,
-    with_normals: bool = True,
-    scale: float = 1.0,
-    centre: bool = False,
-) -> Soup:
-    """The model's triangles with all their attributes. Raises EdgelineError with file and line for what cannot be met.
+    picture_of: Callable[[str], Picture],
+) -> tuple[tuple[Part, ...], Ints]:
+    """A part per image, and one for triangles without any, in the order of the file; and the part of each triangle."""
+    images = [materials.get(name, Material()).image for name in model.materials] + [None]  # index NONE is the last
+    number_of: dict[str | None, int] = {}
+    parts: list[Part] = []
+    for i in dict.fromkeys(face_materials.tolist()):
+        if images[i] not in number_of:
+            number_of[images[i]] = len(parts)
+            name = "" if i == NONE else model.materials[i]
+            parts.append(Part(name, None if images[i] is None else picture_of(name)))
+    part_of_material = np.array([number_of.get(image, 0) for image in images], dtype=np.int64)
+    return tuple(parts), part_of_material[face_materials]
 
-    Texture coordinates are kept when there is a texture, colours of materials when there is none.
-    """
-    vertices = placed(model, scale, centre)
+
+def source_from(
+    model: ObjModel, materials: dict[str, Material], picture_of: Callable[[str], Picture], notes: tuple[str, ...] = ()
+) -> Source:
+    """The model's triangles with all their attributes. `picture_of` tells the image of a material by its name."""
+    vertices = np.array(model.positions, dtype=np.float64).reshape(-1, 3)
     corners = gather(model, vertices)
-    positions = vertices[corners.positions]
-    return Soup(
-        positions=positions,
-        normals=corner_normals(model, corners, positions, crease_degrees) if with_normals else None,
-        uvs=None if texture is None else texel_coordinates(model, corners, texture),
-        colours=vertex_colours(model, corners),
-        triangle_colours=material_colours(model, corners, materials) if texture is None else None,
+    face_materials = np.array([face.material for face in model.faces], dtype=np.int64)[corners.faces]
+    parts, part_of = image_parts(model, face_materials, materials, picture_of)
+    faces = corners.faces.tolist()
+    return check_positions(
+        Source(
+            name=model.name,
+            positions=vertices[corners.positions],
+            parts=parts,
+            part_of=part_of,
+            where=lambda row: f"{model.name}:{model.faces[faces[row]].line}",
+            normals=corner_normals(model, corners),
+            uvs=corner_uvs(model, corners),
+            colours=vertex_colours(model, corners),
+            triangle_colours=material_colours(model, face_materials, materials),
+            notes=notes,
+        )
     )
