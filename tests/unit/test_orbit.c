@@ -2,7 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "orbit.h"
+#include "geometry/orbit.h"
+#include "geometry/transform.h"
 #include "seeded.h"
 
 #define WORLD_Q16 (1 << 30)
