@@ -156,19 +156,24 @@ static void test_between_keys_seeded(void)
     }
 }
 
-/* Half-way between a quarter turn and none is an eighth; smooth, likewise, since both ends have its speed. */
+/* Half-way between a quarter turn and none is an eighth; smooth, likewise, since both ends have its speed. Their negatives
+ * are the same turns, and the way to them no longer. */
 static void test_rotations(void)
 {
     const uint32_t at_ms[2] = {0, 1000};
-    const el_quaternion turns[2] = {el_quaternion_identity(),
-                                    el_quaternion_about((const int32_t[]){0, 0, 1}, EL_DEGREES(90, 1))};
+    const el_quaternion quarter = el_quaternion_about((const int32_t[]){0, 0, 1}, EL_DEGREES(90, 1));
+    el_quaternion turns[2] = {el_quaternion_identity(), quarter};
     const el_quaternion half = el_quaternion_about((const int32_t[]){0, 0, 1}, EL_DEGREES(45, 1));
-    for (el_between between = EL_BETWEEN_LINEAR; between <= EL_BETWEEN_SMOOTH; between++) {
+    for (unsigned round = 0; round < 4; round++) {
+        const el_between between = round < 2 ? EL_BETWEEN_LINEAR : EL_BETWEEN_SMOOTH;
         const el_rotation_track track = {.keys = {.at_ms = at_ms, .count = 2, .between = (uint8_t)between},
                                          .values = turns};
         const el_quaternion got = el_rotation_at(&track, 500);
         for (unsigned i = 0; i < 4; i++) {
             TEST_ASSERT_INT32_WITHIN(4, half.q30[i], got.q30[i]);
+        }
+        for (unsigned i = 0; i < 4; i++) {
+            turns[1].q30[i] = -turns[1].q30[i];
         }
     }
 }

@@ -268,11 +268,37 @@ static void test_at_the_end(void)
     expect_picked(&s);
 }
 
+/* A light without normals: the others are drawn all the same, and picked, by their own numbers. */
+static void test_an_error_stops_nothing_but_its_own(void)
+{
+    static const el_light light = {.ambient = 255};
+    static const el_material lit = {.light = &light};
+    el_config config = {
+        .width = WIDTH, .height = HEIGHT, .band_lines = BAND_LINES, .memory = memory, .memory_bytes = sizeof memory};
+    stage s = stage_made();
+    el_renderer renderer;
+    el_pick pick;
+    el_picked picked;
+    move_to(&s, 0);
+    s.instances[LOWER_ARM].material = &lit;
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_init(&renderer, &config));
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_frame_begin(&renderer, &s.camera));
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_MATERIAL, el_instances_draw(&renderer, s.instances, THINGS));
+    TEST_ASSERT_EQUAL_INT(0, el_frame_next(&renderer));
+    TEST_ASSERT_EQUAL_UINT32(THINGS - 1, el_frame_stats(&renderer)->draws);
+    TEST_ASSERT_EQUAL_INT(EL_OK,
+                          el_pick_begin(&pick, &s.camera, WIDTH, HEIGHT, 26, 15, pick_memory, sizeof pick_memory));
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_MATERIAL, el_instances_pick(&pick, s.instances, THINGS));
+    TEST_ASSERT_EQUAL_INT(1, el_pick_end(&pick, &picked));
+    TEST_ASSERT_EQUAL_UINT32(BALL, picked.draw);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_at_the_beginning);
     RUN_TEST(test_half_way);
     RUN_TEST(test_at_the_end);
+    RUN_TEST(test_an_error_stops_nothing_but_its_own);
     return UNITY_END();
 }

@@ -28,6 +28,12 @@ static uint32_t number_of(uint32_t draw, uint32_t triangle)
     return 1 + draw * SCENE_TRIANGLES + triangle;
 }
 
+/* Triangles that can be skipped in two parts, if anything of them could be. */
+static const el_cluster clusters[2] = {
+    {.triangle_count = SCENE_TRIANGLES / 2, .vertex_count = SCENE_VERTICES / 2, .radius = 1733, .spread = 255},
+    {.triangle_count = SCENE_TRIANGLES / 2, .vertex_count = SCENE_VERTICES / 2, .radius = 1733, .spread = 255},
+};
+
 static void fill_numbered_scene(seeded *s)
 {
     fill_scene(s, &scene);
@@ -42,6 +48,10 @@ static void fill_numbered_scene(seeded *s)
         m->mesh.triangle_colours = (const uint8_t(*)[3])colours[i];
         m->material.shading = EL_SHADE_FLAT;
         m->material.light = NULL;
+        if (any_below(s, 3) == 0) {
+            m->mesh.clusters = clusters;
+            m->mesh.cluster_count = 2;
+        }
     }
     /* Ties: some triangles are there twice. */
     for (unsigned k = 0; k < 8; k++) {

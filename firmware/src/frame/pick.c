@@ -72,6 +72,7 @@ el_status el_pick_draw(el_pick *pick, const el_mesh *mesh, const el_pose *pose, 
     el_mesh empty = *mesh;
     empty.vertex_count = 0;
     empty.triangle_count = 0;
+    empty.cluster_count = 0;
     el_status status = el_draw(&pick->renderer, &empty, pose, material);
     if (status != EL_OK) {
         return status;

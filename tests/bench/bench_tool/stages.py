@@ -38,6 +38,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/geometry/transform.c", "*", "vertex"),
     ("firmware/src/geometry/vertex.c", "*", "vertex"),
     ("firmware/src/geometry/pose.c", "*", "vertex"),
+    ("firmware/src/geometry/vector.c", "*", "vertex"),
     ("firmware/src/geometry/clip.c", "*", "clip"),
     ("firmware/src/geometry/cull.c", "*", "bin"),
     ("firmware/src/geometry/cluster.c", "*", "bin"),
