@@ -129,7 +129,7 @@ def test_all_values(name: str) -> None:
         ("along", VECTOR, "v[i] * row_q30[i] >> 2;", "v[i] * row_q30[i] >> 1;"),
         ("along", VECTOR, "el_shift_i64(sum_q28, 28)", "el_shift_i64(sum_q28, 27)"),
         ("polish", QUATERNION, "q.q30[i] * excess_q30, 31", "q.q30[i] * excess_q30 * 8, 34"),
-        ("multiply", HEADER, "a_q30 * b_q30 >> 2", "a_q30 * b_q30"),
+        ("multiply", HEADER, "(a_q30, b_q30) >> 2", "(a_q30, b_q30)"),
         ("smooth", ANIMATION, "3 * way - 2 * leaving", "(3 * way - 2 * leaving) * (1 << 30)"),
         ("linear", ANIMATION, "values[1] + times(way", "(values[1] << 30) + times(way"),
     ],

@@ -99,22 +99,15 @@ uint32_t el_scale_at(const el_scale_track *track, uint32_t time_ms)
 }
 
 /* `to`, or its negative, which is the same rotation: what is nearer to `from`. */
-static void put_near(const int64_t from[4], const el_quaternion *to, int64_t near[4])
+static el_quaternion near_one(const el_quaternion *from, const el_quaternion *to)
 {
-    int64_t sum_q58 = 0;
-    for (unsigned i = 0; i < 4; i++) {
-        sum_q58 += el_product_q58(from[i], to->q30[i]);
+    el_quaternion near = *to;
+    if (el_quaternion_is_far(from, to)) {
+        for (unsigned i = 0; i < 4; i++) {
+            near.q30[i] = el_saturate_i32(-(int64_t)to->q30[i]);
+        }
     }
-    for (unsigned i = 0; i < 4; i++) {
-        near[i] = sum_q58 < 0 ? -(int64_t)to->q30[i] : to->q30[i];
-    }
-}
-
-static void put(const el_quaternion *q, int64_t numbers[4])
-{
-    for (unsigned i = 0; i < 4; i++) {
-        numbers[i] = q->q30[i];
-    }
+    return near;
 }
 
 el_quaternion el_rotation_at(const el_rotation_track *track, uint32_t time_ms)
@@ -127,18 +120,18 @@ el_quaternion el_rotation_at(const el_rotation_track *track, uint32_t time_ms)
     if (track->keys.between != EL_BETWEEN_SMOOTH) {
         return el_quaternion_slerp(&key[0], &key[1], p.part >> 1);
     }
-    int64_t numbers[4][4] = {0};
-    put(&key[0], numbers[1]);
-    put_near(numbers[1], &key[1], numbers[2]);
+    const el_quaternion next = near_one(&key[0], &key[1]);
+    el_quaternion before = {{0}};
+    el_quaternion after = {{0}};
     if (p.has_before) {
-        put_near(numbers[1], &key[-1], numbers[0]);
+        before = near_one(&key[0], &key[-1]);
     }
     if (p.has_after) {
-        put_near(numbers[2], &key[2], numbers[3]);
+        after = near_one(&next, &key[2]);
     }
     el_quaternion mixed;
     for (unsigned i = 0; i < 4; i++) {
-        const int64_t values[4] = {numbers[0][i], numbers[1][i], numbers[2][i], numbers[3][i]};
+        const int64_t values[4] = {before.q30[i], key[0].q30[i], next.q30[i], after.q30[i]};
         mixed.q30[i] = el_saturate_i32(mix(&p, true, values));
     }
     return el_quaternion_normalise(&mixed);

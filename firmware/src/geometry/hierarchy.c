@@ -20,8 +20,11 @@ el_pose el_pose_within(const el_pose *parent, const el_pose *local)
     for (unsigned i = 0; i < 3; i++) {
         const int32_t *const row = parent->rotation_q30[i];
         for (unsigned j = 0; j < 3; j++) {
-            const int64_t column[3] = {local->rotation_q30[0][j], local->rotation_q30[1][j], local->rotation_q30[2][j]};
-            world.rotation_q30[i][j] = el_clamp_unit(el_vector_along(row, column));
+            int64_t sum_q58 = 0;
+            for (unsigned k = 0; k < 3; k++) {
+                sum_q58 += el_product_q58(row[k], local->rotation_q30[k][j]);
+            }
+            world.rotation_q30[i][j] = el_clamp_unit(el_shift_i64(sum_q58, 28));
         }
         world.position_q16[i] = el_saturate_i32(parent->position_q16[i] + el_vector_along(row, place_q16));
     }

@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/fixed.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -18,10 +20,10 @@ static inline int32_t el_saturate_i32(int64_t value)
     return value > INT32_MAX ? INT32_MAX : (value < INT32_MIN ? INT32_MIN : (int32_t)value);
 }
 
-/* a * b in Q58 where both are in Q30. |a| <= 2^31: 2^60 at most, so that four of any words add up. */
-static inline int64_t el_product_q58(int64_t a_q30, int32_t b_q30)
+/* a * b in Q58 where both are in Q30: 2^60 at most, so that four of any words add up. */
+static inline int64_t el_product_q58(int32_t a_q30, int32_t b_q30)
 {
-    return a_q30 * b_q30 >> 2;
+    return el_product_i32(a_q30, b_q30) >> 2;
 }
 
 /* Scales v, of 3 or 4 numbers, to length 1, Q30, within 4 units. False when it has none. Any v but INT64_MIN. */
