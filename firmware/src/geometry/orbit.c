@@ -66,9 +66,9 @@ static void turn(el_camera *camera, el_angle yaw, el_angle pitch)
 {
     el_pose pose = el_pose_identity();
     if (pitch != 0) {
-        transpose(pose.rotation_q30, camera->axes_q30);
+        transpose(pose.rotation_q30, (const int32_t(*)[3])camera->axes_q30);
         el_pose_turn(&pose, EL_AXIS_X, 0U - pitch);
-        transpose(camera->axes_q30, pose.rotation_q30);
+        transpose(camera->axes_q30, (const int32_t(*)[3])pose.rotation_q30);
     }
     if (yaw != 0) {
         memcpy(pose.rotation_q30, camera->axes_q30, sizeof pose.rotation_q30);
