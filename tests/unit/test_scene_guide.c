@@ -34,7 +34,7 @@ void tearDown(void)
 {
 }
 
-/* An orbit camera that input turns; `ms` have passed since the last frame. */
+/* An orbit camera that a stick turns, -1 to 1; `ms` have passed since the last frame, 1,000 at most. */
 static void turn_camera(el_orbit_camera *orbit, int32_t stick_x, int32_t stick_y, int32_t ms)
 {
     const int32_t per_ms = (int32_t)EL_DEGREES(90, 1000); /* 90 degrees in a second */

@@ -73,7 +73,8 @@ void el_orbit_camera_pan(el_orbit_camera *orbit, int32_t right_q8, int32_t up_q8
  * pitch; to the world's edge at most. */
 void el_orbit_camera_walk(el_orbit_camera *orbit, int32_t forward_q16, int32_t right_q16);
 
-/* Places `camera` and turns it; its other members stay. At the world's edge it goes no further. */
+/* Places `camera` and turns it; its other members stay, also an orthographic picture's height. At the world's edge it goes
+ * no further. */
 void el_orbit_camera_place(const el_orbit_camera *orbit, el_camera *camera);
 
 #ifdef __cplusplus
