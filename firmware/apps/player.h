@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "orbit.h"
+#include "geometry/orbit.h"
 #include "scene.h"
 #include "stream/session.h"
 

@@ -14,7 +14,7 @@ typedef struct el_scene {
     void (*place_camera)(uint32_t frame, el_camera *camera);
     /* Submits the scene; called once per pass. */
     el_status (*draw)(uint32_t frame, el_renderer *renderer);
-    /* How far before the camera lies what it is turned about (orbit.h), Q16 units, 1 to 2^30. Where that is 0 or this is
+    /* How far before the camera lies what it is turned about (geometry/orbit.h), Q16 units, 1 to 2^30. Where that is 0 or this is
      * NULL: el_orbit_focus_q16. */
     uint32_t (*focus_q16)(uint32_t frame);
 } el_scene;

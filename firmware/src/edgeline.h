@@ -19,10 +19,18 @@
 #include "base/sink.h"
 #include "base/stats.h"
 #include "base/status.h"
+#include "frame/pick.h"
 #include "frame/renderer.h"
+#include "geometry/aim.h"
+#include "geometry/animation.h"
+#include "geometry/detail.h"
 #include "geometry/elm.h"
+#include "geometry/hierarchy.h"
 #include "geometry/mesh.h"
+#include "geometry/orbit.h"
 #include "geometry/pose.h"
+#include "geometry/quaternion.h"
 #include "raster/material.h"
+#include "scene/instances.h"
 
 #endif

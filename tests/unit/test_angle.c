@@ -1,4 +1,4 @@
-/* Sines and cosines against the mathematics library, and the exact values that every rotation leans on. */
+/* Sines, cosines and directions against the mathematics library, and the exact values that every rotation leans on. */
 #include "base/angle.h"
 
 #include <math.h>
@@ -88,6 +88,35 @@ static void test_symmetries_are_exact(void)
     }
 }
 
+/* Eight units for any magnitudes; axes and diagonals are exact, and so is the mirror image. */
+static void expect_direction(const seeded *s, int64_t y, int64_t x)
+{
+    const long double turns = atan2l((long double)y, (long double)x) / 6.28318530717958647692528676655900577L;
+    const el_angle got = el_atan2(y, x);
+    const long double error = fabsl(remainderl((long double)got - turns * 4294967296.0L, 4294967296.0L));
+    if (error > 8) {
+        fail_at(s, "atan2(%lld, %lld) is %08lX, off by %.2Lf units", (long long)y, (long long)x, (unsigned long)got,
+                error);
+    }
+    if (y > 0 && el_atan2(-y, x) != 0U - got) {
+        fail_at(s, "atan2(%lld, %lld) is not the mirror image", (long long)y, (long long)x);
+    }
+}
+
+static void test_directions(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0, el_atan2(0, 0));
+    TEST_ASSERT_EQUAL_HEX32(0, el_atan2(0, 1));
+    TEST_ASSERT_EQUAL_HEX32(QUARTER / 2, el_atan2(INT64_MAX, INT64_MAX));
+    TEST_ASSERT_EQUAL_HEX32(QUARTER, el_atan2(5, 0));
+    TEST_ASSERT_EQUAL_HEX32(2 * QUARTER, el_atan2(0, INT64_MIN));
+    TEST_ASSERT_EQUAL_HEX32(3 * QUARTER, el_atan2(INT64_MIN, 0));
+    for (seeded s = seeded_from(3); s.round < PART_OF(200000); s.round++) {
+        const unsigned bits = 1 + any_below(&s, 63);
+        expect_direction(&s, any_signed_of_bits(&s, bits), any_signed_of_bits(&s, bits));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -97,5 +126,6 @@ int main(void)
     RUN_TEST(test_beside_each_eighth);
     RUN_TEST(test_seeded);
     RUN_TEST(test_symmetries_are_exact);
+    RUN_TEST(test_directions);
     return UNITY_END();
 }

@@ -2,7 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "orbit.h"
+#include "geometry/orbit.h"
+#include "geometry/transform.h"
 #include "seeded.h"
 
 #define WORLD_Q16 (1 << 30)
@@ -210,6 +211,109 @@ static void test_the_focus_is_the_point_nearest_to_the_origin(void)
     TEST_ASSERT_EQUAL_UINT32(2 * EL_UNIT_Q16, el_orbit_focus_q16(&camera));
 }
 
+/* --- el_orbit_camera --------------------------------------------------------------------------------------------------- */
+
+static const int32_t at_q16[3] = {EL_UNIT_Q16, 2 * EL_UNIT_Q16, -3 * EL_UNIT_Q16};
+
+static void expect_position(int32_t x, int32_t y, int32_t z, const int32_t position_q16[3])
+{
+    const int32_t expected[3] = {x * EL_UNIT_Q16, y * EL_UNIT_Q16, z * EL_UNIT_Q16};
+    for (unsigned i = 0; i < 3; i++) {
+        TEST_ASSERT_INT32_WITHIN(1, expected[i], position_q16[i]);
+    }
+}
+
+/* It begins on +z, looks along -z; to the right is +x, and upwards +y. */
+static void test_it_stands_where_one_expects_it(void)
+{
+    el_orbit_camera orbit = el_orbit_camera_at(at_q16, 10 * EL_UNIT_Q16);
+    el_camera camera = {.fov_y = 7};
+    el_orbit_camera_place(&orbit, &camera);
+    expect_position(1, 2, 7, camera.position_q16);
+    TEST_ASSERT_EQUAL_INT32(EL_UNIT_Q30, camera.axes_q30[0][0]);
+    TEST_ASSERT_EQUAL_INT32(EL_UNIT_Q30, camera.axes_q30[2][2]);
+    TEST_ASSERT_EQUAL_UINT32(7, camera.fov_y);
+    el_orbit_camera_turn(&orbit, (int32_t)EL_DEGREES(90, 1), 0);
+    el_orbit_camera_place(&orbit, &camera);
+    expect_position(11, 2, -3, camera.position_q16);
+    orbit.most_pitch = (int32_t)EL_DEGREES(90, 1);
+    el_orbit_camera_turn(&orbit, 0, INT32_MAX);
+    el_orbit_camera_place(&orbit, &camera);
+    expect_position(1, 12, -3, camera.position_q16);
+}
+
+static void test_its_limits(void)
+{
+    el_orbit_camera orbit = el_orbit_camera_at(at_q16, EL_UNIT_Q16);
+    el_orbit_camera_turn(&orbit, INT32_MIN, INT32_MIN);
+    TEST_ASSERT_EQUAL_INT32(-(int32_t)EL_DEGREES(89, 1), orbit.pitch);
+    el_orbit_camera_turn(&orbit, INT32_MIN, INT32_MAX);
+    el_orbit_camera_turn(&orbit, 0, INT32_MAX);
+    TEST_ASSERT_EQUAL_INT32(EL_DEGREES(89, 1), orbit.pitch);
+    TEST_ASSERT_EQUAL_HEX32(0, orbit.yaw);
+    el_orbit_camera_zoom(&orbit, 256);
+    TEST_ASSERT_EQUAL_UINT32(EL_UNIT_Q16 / 2, orbit.distance_q16);
+    el_orbit_camera_zoom(&orbit, INT32_MAX);
+    TEST_ASSERT_EQUAL_UINT32(EL_UNIT_Q16 / 16, orbit.distance_q16);
+    el_orbit_camera_zoom(&orbit, INT32_MIN);
+    TEST_ASSERT_EQUAL_UINT32(EL_UNIT_Q16, orbit.distance_q16);
+    el_orbit_camera_zoom(&orbit, INT32_MIN);
+    el_orbit_camera_zoom(&orbit, INT32_MIN);
+    TEST_ASSERT_EQUAL_UINT32(16 * EL_UNIT_Q16, orbit.distance_q16);
+    TEST_ASSERT_EQUAL_UINT32(WORLD_Q16, el_orbit_camera_at(at_q16, WORLD_Q16).most_distance_q16);
+}
+
+/* Turned to the right by a quarter, the picture's right is -z and into it is -x. */
+static void test_it_pans_and_walks(void)
+{
+    el_orbit_camera orbit = el_orbit_camera_at(at_q16, 4 * EL_UNIT_Q16);
+    el_camera camera;
+    el_orbit_camera_turn(&orbit, (int32_t)EL_DEGREES(90, 1), 0);
+    el_orbit_camera_pan(&orbit, 256, 128);
+    expect_position(1, 4, -7, orbit.target_q16);
+    el_orbit_camera_turn(&orbit, 0, (int32_t)EL_DEGREES(40, 1));
+    el_orbit_camera_walk(&orbit, 3 * EL_UNIT_Q16, 2 * EL_UNIT_Q16);
+    expect_position(-2, 4, -9, orbit.target_q16);
+    orbit.distance_q16 = 0; /* its own eyes */
+    el_orbit_camera_place(&orbit, &camera);
+    expect_position(-2, 4, -9, camera.position_q16);
+}
+
+/* Whatever it is told, a frame can begin with it, and its target is in the middle of the picture. */
+static void test_a_frame_can_begin_with_any_orbit(void)
+{
+    for (seeded s = seeded_from(761); s.round < PART_OF(5000); s.round++) {
+        const int32_t target_q16[3] = {(int32_t)any_signed_of_bits(&s, 30), (int32_t)any_signed_of_bits(&s, 30),
+                                       (int32_t)any_signed_of_bits(&s, 30)};
+        el_orbit_camera orbit = el_orbit_camera_at(target_q16, (uint32_t)any_of_bits(&s, 30));
+        el_camera camera = any_camera(&s);
+        el_view view;
+        for (unsigned i = 0; i < 4; i++) {
+            el_orbit_camera_turn(&orbit, (int32_t)any_u64(&s), (int32_t)any_u64(&s));
+            el_orbit_camera_zoom(&orbit, (int32_t)any_signed_of_bits(&s, 31));
+            el_orbit_camera_pan(&orbit, (int32_t)any_signed_of_bits(&s, 31), (int32_t)any_signed_of_bits(&s, 31));
+            el_orbit_camera_walk(&orbit, (int32_t)any_signed_of_bits(&s, 31), (int32_t)any_signed_of_bits(&s, 31));
+        }
+        el_orbit_camera_place(&orbit, &camera);
+        const el_status status = el_view_make(&view, &camera, 320, 240);
+        if (status != EL_OK) {
+            fail_at(&s, "status %d", status);
+        }
+        bool is_cut = false;
+        double target[3];
+        double seen[3];
+        for (unsigned i = 0; i < 3; i++) {
+            target[i] = orbit.target_q16[i] / 65536.0;
+            is_cut = is_cut || camera.position_q16[i] == WORLD_Q16 || camera.position_q16[i] == -WORLD_Q16;
+        }
+        see(&camera, target, seen);
+        for (unsigned i = 0; i < 3 && !is_cut; i++) {
+            expect_near(&s, "the target", i < 2 ? 0 : -(orbit.distance_q16 / 65536.0), seen[i],
+                        3 / 65536.0 + orbit.distance_q16 / 65536.0 / (1 << 26));
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -220,5 +324,9 @@ int main(void)
     RUN_TEST(test_zoom_divides_the_distance_by_powers_of_two);
     RUN_TEST(test_an_orthographic_picture_grows_instead);
     RUN_TEST(test_the_focus_is_the_point_nearest_to_the_origin);
+    RUN_TEST(test_it_stands_where_one_expects_it);
+    RUN_TEST(test_its_limits);
+    RUN_TEST(test_it_pans_and_walks);
+    RUN_TEST(test_a_frame_can_begin_with_any_orbit);
     return UNITY_END();
 }

@@ -20,6 +20,9 @@ typedef uint32_t el_angle;
 int32_t el_sin_q30(el_angle angle);
 int32_t el_cos_q30(el_angle angle);
 
+/* The direction of (x, y), counter-clockwise from x, within 8 units of 2^-32 turn; 0 for (0, 0). Any numbers. */
+el_angle el_atan2(int64_t y, int64_t x);
+
 #ifdef __cplusplus
 }
 #endif

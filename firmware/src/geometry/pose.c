@@ -1,6 +1,7 @@
 #include "geometry/pose.h"
 
 #include "base/fixed.h"
+#include "geometry/vector.h"
 
 el_pose el_pose_identity(void)
 {
@@ -32,15 +33,6 @@ int64_t el_dot_column(const int32_t v[3], const int32_t m[3][3], unsigned column
     return sum;
 }
 
-/* Rounding may carry an element of a product of rotations a few units beyond 1; the pose's range ends there. */
-static int32_t clamp_unit(int64_t value_q30)
-{
-    if (value_q30 > EL_UNIT_Q30) {
-        return EL_UNIT_Q30;
-    }
-    return value_q30 < -EL_UNIT_Q30 ? -EL_UNIT_Q30 : (int32_t)value_q30;
-}
-
 void el_pose_turn(el_pose *pose, el_axis axis, el_angle angle)
 {
     const int64_t sine = el_sin_q30(angle);
@@ -50,42 +42,8 @@ void el_pose_turn(el_pose *pose, el_axis axis, el_angle angle)
     for (unsigned i = 0; i < 3; i++) {
         const int64_t a = pose->rotation_q30[i][j];
         const int64_t b = pose->rotation_q30[i][k];
-        pose->rotation_q30[i][j] = clamp_unit(el_shift_i64(a * cosine + b * sine, 30));
-        pose->rotation_q30[i][k] = clamp_unit(el_shift_i64(b * cosine - a * sine, 30));
-    }
-}
-
-/* Scales v to length 1, Q30. False when it has none. */
-static bool normalise(const int64_t v[3], int32_t unit_q30[3])
-{
-    uint64_t bits = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        bits |= el_abs_u64(v[i]);
-    }
-    if (bits == 0) {
-        return false;
-    }
-    /* 30 bits each: the sum of squares stays below 2^62. */
-    const int shift = el_bit_length_u64(bits) - 30;
-    int64_t scaled[3];
-    uint64_t sum = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        scaled[i] = el_shift_i64(v[i], shift);
-        sum += (uint64_t)(scaled[i] * scaled[i]);
-    }
-    const int64_t length = el_sqrt_u64(sum);
-    for (unsigned i = 0; i < 3; i++) {
-        unit_q30[i] = clamp_unit((scaled[i] * EL_UNIT_Q30) / length);
-    }
-    return true;
-}
-
-static void cross(const int32_t a_q30[3], const int32_t b_q30[3], int64_t product[3])
-{
-    for (unsigned i = 0; i < 3; i++) {
-        const unsigned j = (i + 1U) % 3U;
-        const unsigned k = (i + 2U) % 3U;
-        product[i] = (int64_t)a_q30[j] * b_q30[k] - (int64_t)a_q30[k] * b_q30[j];
+        pose->rotation_q30[i][j] = el_clamp_unit(el_shift_i64(a * cosine + b * sine, 30));
+        pose->rotation_q30[i][k] = el_clamp_unit(el_shift_i64(b * cosine - a * sine, 30));
     }
 }
 
@@ -99,17 +57,15 @@ el_status el_camera_look_at(el_camera *camera, const int32_t eye_q16[3], const i
     int32_t up_q30[3];
     int32_t back_q30[3];
     int64_t product[3];
-    if (!normalise(towards_eye, back_q30) || !normalise(up, up_q30)) {
+    if (!el_vector_normalise(towards_eye, 3, back_q30) || !el_vector_normalise(up, 3, up_q30)) {
         return EL_ERROR_CAMERA;
     }
-    cross(up_q30, back_q30, product);
-    /* Shorter than 2^-20 of a unit vector, the cross product is rounding, not a direction. */
-    if ((el_abs_u64(product[0]) | el_abs_u64(product[1]) | el_abs_u64(product[2])) < (1ULL << 40) ||
-        !normalise(product, right_q30)) {
+    el_vector_cross(up_q30, back_q30, product);
+    if (!el_vector_is_direction(product) || !el_vector_normalise(product, 3, right_q30)) {
         return EL_ERROR_CAMERA;
     }
-    cross(back_q30, right_q30, product);
-    (void)normalise(product, up_q30);
+    el_vector_cross(back_q30, right_q30, product);
+    (void)el_vector_normalise(product, 3, up_q30);
     for (unsigned i = 0; i < 3; i++) {
         camera->axes_q30[0][i] = right_q30[i];
         camera->axes_q30[1][i] = up_q30[i];

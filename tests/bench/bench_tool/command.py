@@ -10,7 +10,21 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import against, codec, compare, frames, growth, growth_plot, models, size, stages, still, tables, workers
+from . import (
+    against,
+    codec,
+    compare,
+    frames,
+    growth,
+    growth_plot,
+    helpers,
+    models,
+    size,
+    stages,
+    still,
+    tables,
+    workers,
+)
 from .machines import (
     BENCH,
     CORES,
@@ -47,6 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--profile", metavar="SCENE", help="print which stages and functions a scene's instructions go to"
     )
     what.add_argument("--still", action="store_true", help="print what it saves to leave out what has not changed")
+    what.add_argument("--helpers", action="store_true", help="print what quaternions, animations, picking ... cost")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
@@ -95,6 +110,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
         print(against.table(*against.measure(machines, options.against, verdicts)))
     if options.still:
         print(still.table(still.measure(machines, verdicts)))
+    if options.helpers:
+        print(helpers.table(helpers.measure(machines, verdicts)))
     if options.workers:
         print(workers.table(workers.measure(machines)))
     if options.profile is not None:
