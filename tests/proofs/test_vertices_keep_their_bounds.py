@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 import contracts
+from c_source import SMALL_CODE
 from c_values import ArrayType, Cell
 from proof import ARMV6M, EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
 from symbolic import Path, require
@@ -76,7 +77,8 @@ def form_domain(core: str) -> Any:
         for name, value in members.items():
             machine.put((of_row if name in of_row else transform.content)[name], value)
         place = machine.struct("el_place", x=position[0], y=position[1], z=position[2])
-        plain = core == ARMV6M and shift <= 15 and path.choose(path.atom("plain", 0, 1))
+        known = shift <= 15 if core == ARMV6M else shift == constant_of(machine, "EL_ROW_SHIFT")
+        plain = known and path.choose(path.atom("plain", 0, 1))
         return [Pointer([transform]), machine.exactly("uint32_t", 0), place, machine.exactly("_Bool", int(plain))]
 
     return domain
@@ -141,8 +143,24 @@ def rows_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     path.prove(offset - whole * (1 << split + over) - rest, "the offset, modulo 2^32 of the whole", zero=True)
 
 
-FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M)}
+FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M), "form_value, small": form(SMALL_CODE)}
 ROWS = Subject(VERTEX, "el_transform_set_rows", rows_domain, rows_check, core=ARMV6M)
+
+
+def raised_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """All of the row is moved up alike, to the shift that is known, or not at all; the offset modulo 2^64."""
+    transform, path = arguments[0].cell, machine.path
+    element, offset = machine.poly(arguments[1].cells[0].content[0]), machine.poly(arguments[2].cells[0])
+    raised, shift = machine.poly(transform, "raise").known, machine.poly(transform, "shift").known
+    require(shift == arguments[3].poly.known + raised, "the shift")
+    require(raised == 0 or shift == constant_of(machine, "EL_ROW_SHIFT"), "up to what is known")
+    row = transform.content["rows"].content[0]
+    path.prove(machine.poly(row, "elements", 0) - element * (1 << raised), "the element", zero=True)
+    turns = path.floor(offset * (1 << raised) + 2**63, 2**64)
+    path.prove(machine.poly(row, "offset") - offset * (1 << raised) + turns * 2**64, "the offset", zero=True)
+
+
+RAISED = Subject(VERTEX, "el_transform_set_rows", rows_domain, raised_check, ["el_transform_set_rows"])
 
 # --- where it lies ----------------------------------------------------------------------------------------------------
 
@@ -489,6 +507,7 @@ PUT_BACK = Subject(CLIP, "el_clip_polygon", put_back_domain, put_back_check)
 
 SUBJECTS = {
     **FORM,
+    "rows": RAISED,
     "rows, armv6m": ROWS,
     "outcode": OUTCODE,
     "snap": SNAP,
@@ -538,8 +557,12 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("form_value", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
-        ("form_value", VERTEX, "(32 - transform->shift)", "(31 - transform->shift)"),
+        ("form_value", VERTEX, "(uint32_t)sum >> shift)", "(uint32_t)(sum + 1U) >> shift)"),
+        ("form_value", VERTEX, "(32U - shift)", "(31U - shift)"),
+        ("form_value", VERTEX, "plain ? (unsigned)EL_ROW_SHIFT", "!plain ? (unsigned)EL_ROW_SHIFT"),
+        ("form_value, small", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
+        ("rows", VERTEX, "all >> (31U - missing)", "all >> (32U - missing)"),
+        ("rows", VERTEX, "elements[i][j] * (1 << raise)", "elements[i][j] * (1 << (raise / 2U))"),
         ("form_value, armv6m", VERTEX, "(uint32_t)(low >> transform->split)", "((uint32_t)low >> transform->split)"),
         ("form_value, armv6m", VERTEX, "plain ? row->whole :", "!plain ? row->whole :"),
         ("form_value, armv6m", "geometry/transform.h", "EL_ROW_MOST = 0x70000000", "EL_ROW_MOST = 0x7FFFFFFF"),
