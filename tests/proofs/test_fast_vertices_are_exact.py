@@ -231,7 +231,7 @@ def depth_scale(machine: Machine, transform: Any) -> Poly:
 
 
 def leading_zeros(machine: Machine, arguments: list[Any]) -> Number:
-    """el_leading_zeros, whose table tests/unit/test_fixed.c looks through. Pre: not 0."""
+    """el_leading_zeros, whose table tests/unit/test_reciprocals.c tries. Pre: not 0."""
     path, x = machine.path, arguments[0].poly
     path.prove(x - 1, "el_leading_zeros: not of 0")
     zeros = path.choose(path.atom("zeros", 0, 31))
@@ -377,7 +377,7 @@ SNAP = Subject(
     "snap_fast",
     snap_domain,
     snap_check,
-    ["snap_fast"],
+    ["snap_fast", "el_reciprocal_beside"],
     contracts=PRODUCTS,
     lemmas={"snap_fast.ratio": ratio_lemma},
 )
@@ -472,7 +472,14 @@ def depth_check(machine: Machine, _: list[Any], result: Number) -> None:
     path.prove(2**44 - 1 - rounded, "depth_of is not above")
 
 
-DEPTH = Subject(VERTEX, "depth_fast", depth_domain, depth_check, contracts={"el_product_near_u32": depth_product})
+DEPTH = Subject(
+    VERTEX,
+    "depth_fast",
+    depth_domain,
+    depth_check,
+    ["el_reciprocal_beside"],
+    contracts={"el_product_near_u32": depth_product},
+)
 
 
 def set_depth_domain(machine: Machine) -> list[Any]:
@@ -559,7 +566,7 @@ KEEP = Subject(
     "keep_reciprocal_fast",
     keep_domain,
     keep_check,
-    ["keep_reciprocal_fast"],
+    ["keep_reciprocal_fast", "el_reciprocal_beside"],
     contracts={"is_near_step": near_step},
 )
 
@@ -617,9 +624,9 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "old", "new"),
     [
-        ("snap", "SNAP_OFF = 8", "SNAP_OFF = 7"),
+        ("snap", "SNAP_OFF = 8", "SNAP_OFF = 6"),
         ("snap", "(1U << SNAP_FRACTION) / 2U", "(1U << SNAP_FRACTION) / 4U"),
-        ("depth", "DEPTH_OFF = 4", "DEPTH_OFF = 3"),
+        ("depth", "DEPTH_OFF = 4", "DEPTH_OFF = 2"),
         ("depth", "scales->depth - (product", "scales->depth - 16U - (product"),
         ("set depth", "scale_q12 < 1U << 29", "scale_q12 <= 1U << 29"),
         ("set depth", "near_q32 >> shift)", "near_q32 >> shift) + 1U"),

@@ -46,8 +46,9 @@ def row_of(machine: Machine, core: str, shift: int) -> tuple[dict[str, Any], lis
     whole = path.atom("whole", -(2**62 >> shift), 2**62 >> shift)
     rest_high = path.atom("rest_high", 0, (1 << (shift - split)) - 1)
     rest_low = path.atom("rest_low", 0, (1 << split) - 1)
-    members = {"split": split, "over": shift - split, "high": high, "low": low}
-    members |= {"whole": whole - path.floor(whole, 2**32) * 2**32, "rest_high": rest_high, "rest_low": rest_low}
+    up = 1 << (15 - split)
+    members = {"split": split, "over": shift - split, "high": high, "low": [each * up for each in low]}
+    members |= {"whole": whole - path.floor(whole, 2**32) * 2**32, "rest_high": rest_high, "rest_low": rest_low * up}
     offset = whole * (1 << shift) + rest_high * (1 << split) + rest_low
     return members, [h * (1 << split) + lo for h, lo in zip(high, low, strict=True)], offset
 
@@ -133,14 +134,15 @@ def rows_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     require(split == min(arguments[3].poly.known, 15) and split + over == arguments[3].poly.known, "where it is split")
     row = transform.content["rows"].content[0]
     high, low = machine.poly(row, "high", 0), machine.poly(row, "low", 0)
-    path.prove(element - high * (1 << split) - low, "the element", zero=True)
-    path.prove((1 << (split - 1)) - low, "low is short")
-    path.prove((1 << (split - 1)) + low, "low is short")
-    rest = machine.poly(row, "rest_high") * (1 << split) + machine.poly(row, "rest_low")
-    path.prove((1 << split) - 1 - machine.poly(row, "rest_low"), "the lower rest is short")
+    up = 1 << (15 - split)
+    path.prove((element - high * (1 << split)) * up - low, "the element", zero=True)
+    path.prove(2**14 - low, "low is short")
+    path.prove(2**14 + low, "low is short")
+    rest = machine.poly(row, "rest_high") * 2**15 + machine.poly(row, "rest_low")
+    path.prove(2**15 - 1 - machine.poly(row, "rest_low"), "the lower rest is short")
     turns = path.floor(offset, 1 << split + over + 32)
     whole = machine.poly(row, "whole") + turns * 2**32
-    path.prove(offset - whole * (1 << split + over) - rest, "the offset, modulo 2^32 of the whole", zero=True)
+    path.prove((offset - whole * (1 << split + over)) * up - rest, "the offset, modulo 2^32 of the whole", zero=True)
 
 
 FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M), "form_value, small": form(SMALL_CODE)}
@@ -563,10 +565,10 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
         ("form_value, small", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
         ("rows", VERTEX, "all >> (31U - missing)", "all >> (32U - missing)"),
         ("rows", VERTEX, "elements[i][j] * (1 << raise)", "elements[i][j] * (1 << (raise / 2U))"),
-        ("form_value, armv6m", VERTEX, "(uint32_t)(low >> transform->split)", "((uint32_t)low >> transform->split)"),
+        ("form_value, armv6m", VERTEX, "(uint32_t)(low >> EL_ROW_SHIFT)", "((uint32_t)low >> EL_ROW_SHIFT)"),
         ("form_value, armv6m", VERTEX, "plain ? row->whole :", "!plain ? row->whole :"),
         ("form_value, armv6m", "geometry/transform.h", "EL_ROW_MOST = 0x70000000", "EL_ROW_MOST = 0x7FFFFFFF"),
-        ("rows, armv6m", VERTEX, "shift < 15U ? shift : 15U", "shift < 16U ? shift : 16U"),
+        ("rows, armv6m", VERTEX, "shift < EL_ROW_SHIFT ? shift", "shift < EL_ROW_SHIFT ? shift - 1U"),
         ("rows, armv6m", VERTEX, "(1 << (split - 1U))) >> split", "(1 << (split - 1U)) + 1) >> split"),
         ("rows, armv6m", VERTEX, "offsets[i], shift) >> split", "offsets[i], shift - 1U) >> split"),
         ("outcode", VERTEX, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),

@@ -9,16 +9,6 @@ EL_INLINE_HERE uint64_t el_multiply_u64(uint64_t a, int32_t b);
 EL_INLINE_HERE uint64_t el_product_u64(uint32_t a, uint32_t b);
 /* NOLINTEND(readability-redundant-declaration) */
 
-#if defined(EL_PRODUCTS_IN_HALVES)
-#define ZEROS_4(n) n, n, n, n
-#define ZEROS_16(n) ZEROS_4(n), ZEROS_4(n), ZEROS_4(n), ZEROS_4(n)
-#define ZEROS_64(n) ZEROS_16(n), ZEROS_16(n), ZEROS_16(n), ZEROS_16(n)
-const uint8_t el_zeros_of_byte[256] = {
-    8,          7,          6,           6,           5,           5,           5,           5,
-    ZEROS_4(4), ZEROS_4(4), ZEROS_16(3), ZEROS_16(2), ZEROS_16(2), ZEROS_64(1), ZEROS_64(0), ZEROS_64(0),
-};
-#endif
-
 #if EL_SMALL_CODE
 uint32_t el_sqrt_u64(uint64_t x)
 {

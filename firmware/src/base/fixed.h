@@ -13,6 +13,7 @@
 /* A core without a 32 x 32 -> 64 bit product (Armv6-M) has products of 32 bits instead, where they need not be short. */
 #if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
 #define EL_PRODUCTS_IN_HALVES
+#define EL_ZEROS_BY_TABLE /* nor does it have an instruction that counts leading zeros */
 #endif
 
 /* Bits of x: 0 for 0, 32 for x >= 2^31. */
@@ -21,7 +22,7 @@ static inline int el_bit_length_u32(uint32_t x)
     return x == 0 ? 0 : 32 - __builtin_clz(x);
 }
 
-#if defined(EL_PRODUCTS_IN_HALVES)
+#if defined(EL_ZEROS_BY_TABLE)
 /* Leading zeros of a byte. */
 extern const uint8_t el_zeros_of_byte[256];
 #endif
@@ -29,7 +30,7 @@ extern const uint8_t el_zeros_of_byte[256];
 /* Leading zeros of x. Pre: x > 0. */
 static inline unsigned el_leading_zeros(uint32_t x)
 {
-#if defined(EL_PRODUCTS_IN_HALVES)
+#if defined(EL_ZEROS_BY_TABLE)
     /* Without an instruction for it; nearly all numbers that are asked for have a bit in their first byte. */
     unsigned zeros = 0;
     for (; x >> 24 == 0; x <<= 8) {

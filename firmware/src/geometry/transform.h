@@ -68,8 +68,8 @@ enum { EL_ROW_SHIFT = 15 };
  * |offset| < 2^62. */
 typedef struct el_row {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    /* Products of 32 bits: element = high * 2^split + low, |low| <= 2^(split - 1);
-     * offset = whole * 2^shift + rest_high * 2^split + rest_low, 0 <= rest_low < 2^split, shift = split + over. */
+    /* Products of 32 bits: element = high * 2^split + low / up, |low| <= 2^14, up = 2^(EL_ROW_SHIFT - split);
+     * offset = whole * 2^shift + rest_high * 2^split + rest_low / up, rest_low < 2^15, shift = split + over. */
     uint16_t rest_high;
     uint16_t rest_low;
     uint32_t whole;
@@ -122,7 +122,8 @@ static inline unsigned el_transform_raise(const el_transform *transform)
 static inline int32_t el_transform_element(const el_transform *transform, unsigned row, unsigned i)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    return transform->rows[row].high[i] * (1 << transform->split) + transform->rows[row].low[i];
+    return transform->rows[row].high[i] * (1 << transform->split) +
+           (transform->rows[row].low[i] >> (EL_ROW_SHIFT - transform->split));
 #else
     return transform->rows[row].elements[i] >> el_transform_raise(transform);
 #endif

@@ -30,18 +30,20 @@ static uint32_t low_bits(uint32_t value, unsigned bits)
 void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
                            unsigned shift)
 {
-    /* With 15 bits below, both sums fit 32 bits; with no more than will be shifted out, the upper one needs no shift. */
-    const unsigned split = shift < 15U ? shift : 15U;
+    /* With 15 bits below, both sums fit 32 bits; with no more than will be shifted out, the upper one needs no shift. The
+     * lower one has 15 all the same: by what is known it is shifted faster. */
+    const unsigned split = shift < EL_ROW_SHIFT ? shift : (unsigned)EL_ROW_SHIFT;
+    const unsigned raise = (unsigned)EL_ROW_SHIFT - split;
     transform->split = (uint8_t)split;
     transform->over = (uint8_t)(shift - split);
     for (unsigned i = 0; i < 3; i++) {
         el_row *const row = &transform->rows[i];
         row->whole = (uint32_t)((uint64_t)offsets[i] >> shift);
         row->rest_high = (uint16_t)(low_bits((uint32_t)offsets[i], shift) >> split);
-        row->rest_low = (uint16_t)low_bits((uint32_t)offsets[i], split);
+        row->rest_low = (uint16_t)(low_bits((uint32_t)offsets[i], split) << raise);
         for (unsigned j = 0; j < 3; j++) {
             row->high[j] = (elements[i][j] + (1 << (split - 1U))) >> split;
-            row->low[j] = elements[i][j] - row->high[j] * (1 << split);
+            row->low[j] = (elements[i][j] - row->high[j] * (1 << split)) * (1 << raise);
         }
     }
 }
@@ -64,7 +66,7 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, el_p
     low += row->low[0] * p.x;
     low += row->low[1] * p.y;
     low += row->low[2] * p.z;
-    high += (uint32_t)(low >> transform->split);
+    high += (uint32_t)(low >> EL_ROW_SHIFT);
     high += (uint32_t)row->high[0] * (uint32_t)p.x;
     high += (uint32_t)row->high[1] * (uint32_t)p.y;
     high += (uint32_t)row->high[2] * (uint32_t)p.z;
