@@ -182,7 +182,7 @@ void el_transform_vertex(const el_transform *transform, const int16_t position[3
  * will ask for more: where they do, el_transform_vertex has it. */
 void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
-/* That for `count` of them. */
+/* That for `count` of them. Without `keeps_w`, w and w_shift are not valid: nothing but textures asks for 1/w. */
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
                            el_screen_vertex *screen, bool keeps_w);
 
