@@ -225,7 +225,7 @@ COORDINATE = (-(2**15), 2**15 - 1)
 
 def depth_scale(machine: Machine, transform: Any) -> Poly:
     """el_scales.depth. The scale is below 2^29 where there is a short way (SET_DEPTH), and is there for that alone."""
-    scale = machine.poly(transform.cell if isinstance(transform, Pointer) else transform, "depth_scale")
+    scale: Poly = machine.poly(transform.cell if isinstance(transform, Pointer) else transform, "depth_scale")
     machine.path.assume(2**29 - 1 - scale)
     return scale * 2 + (2 ** (constant_of(machine, "DEPTH_FRACTION") - 1) + constant_of(machine, "DEPTH_OFF"))
 
@@ -356,7 +356,7 @@ def ratio_lemma(machine: Machine, ratio: Number) -> Number:
 
 def snap_check(machine: Machine, _: list[Any], result: Number) -> None:
     """The nearest, ties up."""
-    m, n, size, _ = SNAPS.pop(id(machine.path))
+    m, n, size, _r = SNAPS.pop(id(machine.path))
     path, bits = machine.path, constant_of(machine, "SNAP_FRACTION")
     if is_near_step(machine, result.poly, bits):
         return
@@ -448,7 +448,7 @@ def depth_product(machine: Machine, arguments: list[Any]) -> Number:
 
 def depth_check(machine: Machine, _: list[Any], result: Number) -> None:
     path = machine.path
-    near, scale, excess, n, _ = DEPTHS.pop(id(path))
+    near, scale, excess, n, _r = DEPTHS.pop(id(path))
     p = machine.locals["depth_fast.product"].poly
     bits = constant_of(machine, "DEPTH_FRACTION")
     if is_near_step(machine, result.poly, bits):
