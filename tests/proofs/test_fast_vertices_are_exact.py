@@ -225,9 +225,10 @@ COORDINATE = (-(2**15), 2**15 - 1)
 
 def depth_scale(machine: Machine, transform: Any) -> Poly:
     """el_scales.depth. The scale is below 2^29 where there is a short way (SET_DEPTH), and is there for that alone."""
-    scale: Poly = machine.poly(transform.cell if isinstance(transform, Pointer) else transform, "depth_scale")
+    scale = machine.poly(transform.cell if isinstance(transform, Pointer) else transform, "depth_scale")
     machine.path.assume(2**29 - 1 - scale)
-    return scale * 2 + (2 ** (constant_of(machine, "DEPTH_FRACTION") - 1) + constant_of(machine, "DEPTH_OFF"))
+    depth: Poly = scale * 2 + (2 ** (constant_of(machine, "DEPTH_FRACTION") - 1) + constant_of(machine, "DEPTH_OFF"))
+    return depth
 
 
 def leading_zeros(machine: Machine, arguments: list[Any]) -> Number:
