@@ -123,6 +123,22 @@ def reciprocal_near(machine: Machine, arguments: list[Any]) -> Number:
     return machine.exactly("uint32_t", reciprocal)
 
 
+def reciprocal_beside(machine: Machine, arguments: list[Any]) -> Number:
+    """el_reciprocal_beside: r with -EL_RECIPROCAL_HIGH d < 2^61 - r d < EL_RECIPROCAL_LOW d. Pre: d has 31 bits.
+
+    So 2^30 - EL_RECIPROCAL_LOW < r < 2^31 + EL_RECIPROCAL_HIGH (test_division_is_exact).
+    """
+    d, path = arguments[0].poly, machine.path
+    path.prove(d - (1 << 30), "el_reciprocal_beside: the divisor has 31 bits")
+    path.prove((1 << 31) - 1 - d, "el_reciprocal_beside: and no more")
+    low, high = (machine.constant(machine.unit.constants[f"EL_RECIPROCAL_{end}"]) for end in ("LOW", "HIGH"))
+    reciprocal = path.atom("r", (1 << 30) - low, (1 << 31) + high)
+    rest = (1 << 61) - reciprocal * d
+    path.assume(rest + d * high - 1)
+    path.assume(d * low - 1 - rest)
+    return machine.exactly("uint32_t", reciprocal)
+
+
 def product_near(machine: Machine, arguments: list[Any]) -> Number:
     """el_product_near_u32: a b / 2^32, too low by less than EL_PRODUCT_ERROR (test_products_are_exact)."""
     a, b = (argument.poly for argument in arguments)

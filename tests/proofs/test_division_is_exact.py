@@ -1,8 +1,9 @@
 """base/divide: the reciprocal, the quotient of two words by one, and all that is built on them.
 
 The reciprocal of d is v = floor((2^64 - 1) / d) - 2^32. With B = 2^32 that says: k = B^2 - (B + v) d is in 1..d. It is
-checked for each of the 2^31 normalised divisors; so is el_reciprocal_near: 1 <= 2^63 - r d < EL_RECIPROCAL_ERROR d. On
-cores without a divider both begin with a table, whose every entry is checked against the division.
+checked for each of the 2^31 normalised divisors; so are el_reciprocal_near, 1 <= 2^63 - r d < EL_RECIPROCAL_ERROR d,
+and el_reciprocal_beside, -EL_RECIPROCAL_HIGH d < 2^61 - r d < EL_RECIPROCAL_LOW d. On cores without a divider all begin
+with a table, whose every entry is checked against the division.
 
 el_divide_words takes p = (B + v) high + low, tries q = p div B + 1, and corrects. With q0 = p mod B and
 r = high B + low - q d, the definition of k gives B r = high k + low (B - d) + (q0 - B) d, from which
@@ -65,6 +66,26 @@ int main(void)
 }
 """
 
+EVERY_BESIDE = """
+#include "base/divide.c"
+#include "base/reciprocals.c"
+#include <stdio.h>
+
+int main(void)
+{
+    for (uint32_t d = 1U << 30; d != 1U << 31; d++) {
+        /* Too high a one is below 0 by EL_RECIPROCAL_HIGH d at most; all else that is wrong wraps, or is too much. */
+        const uint64_t high = (uint64_t)EL_RECIPROCAL_HIGH * d - 1U;
+        const uint64_t rest = (1ULL << 61) - (uint64_t)el_reciprocal_beside(d) * d;
+        if (rest + high >= (uint64_t)EL_RECIPROCAL_LOW * d + high) {
+            printf("the reciprocal of %u is beside %u\\n", d, el_reciprocal_beside(d));
+            return 1;
+        }
+    }
+    return 0;
+}
+"""
+
 EVERY_ENTRY = """
 #include "base/divide.c"
 #include "base/reciprocals.c"
@@ -108,8 +129,8 @@ def first_wrong(folder: FilePath, text: str, tree: FilePath = SOURCES, core: str
 
 EVERY = pytest.mark.parametrize(
     ("text", "core"),
-    [(EVERY_DIVISOR, ""), (EVERY_NEAR, ""), (EVERY_ENTRY, ARMV6M)],
-    ids=["exact", "near", "tables"],
+    [(EVERY_DIVISOR, ""), (EVERY_NEAR, ""), (EVERY_BESIDE, ""), (EVERY_BESIDE, ARMV6M), (EVERY_ENTRY, ARMV6M)],
+    ids=["exact", "near", "beside", "beside, by table", "tables"],
 )
 
 
@@ -128,6 +149,9 @@ TABLE = "base/reciprocals.c"
         (EVERY_DIVISOR, "", Fault(HEADER, "(v1, e) >> 33", "(v1, e) >> 34")),
         (EVERY_NEAR, "", Fault(HEADER, "EL_RECIPROCAL_ERROR = 18", "EL_RECIPROCAL_ERROR = 17")),
         (EVERY_NEAR, "", Fault(HEADER, "0x7FFFFFFFU - product", "0x80000010U - product")),
+        (EVERY_BESIDE, "", Fault(HEADER, "EL_RECIPROCAL_LOW = 4", "EL_RECIPROCAL_LOW = 3")),
+        (EVERY_BESIDE, ARMV6M, Fault(HEADER, "EL_RECIPROCAL_HIGH = 3", "EL_RECIPROCAL_HIGH = 2")),
+        (EVERY_BESIDE, ARMV6M, Fault(HEADER, "(guess * (off >> 15)) >> 24", "(guess * (off >> 15)) >> 23")),
         (
             EVERY_ENTRY,
             ARMV6M,

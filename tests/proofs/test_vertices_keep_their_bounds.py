@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 import contracts
+from c_source import SMALL_CODE
 from c_values import ArrayType, Cell
 from proof import ARMV6M, EVERY_PRECISION, Fault, Machine, Number, Pointer, Poly, Subject, as_unknown
 from symbolic import Path, require
@@ -45,8 +46,9 @@ def row_of(machine: Machine, core: str, shift: int) -> tuple[dict[str, Any], lis
     whole = path.atom("whole", -(2**62 >> shift), 2**62 >> shift)
     rest_high = path.atom("rest_high", 0, (1 << (shift - split)) - 1)
     rest_low = path.atom("rest_low", 0, (1 << split) - 1)
-    members = {"split": split, "over": shift - split, "high": high, "low": low}
-    members |= {"whole": whole - path.floor(whole, 2**32) * 2**32, "rest_high": rest_high, "rest_low": rest_low}
+    up = 1 << (15 - split)
+    members = {"split": split, "over": shift - split, "high": high, "low": [each * up for each in low]}
+    members |= {"whole": whole - path.floor(whole, 2**32) * 2**32, "rest_high": rest_high, "rest_low": rest_low * up}
     offset = whole * (1 << shift) + rest_high * (1 << split) + rest_low
     return members, [h * (1 << split) + lo for h, lo in zip(high, low, strict=True)], offset
 
@@ -76,7 +78,8 @@ def form_domain(core: str) -> Any:
         for name, value in members.items():
             machine.put((of_row if name in of_row else transform.content)[name], value)
         place = machine.struct("el_place", x=position[0], y=position[1], z=position[2])
-        plain = core == ARMV6M and shift <= 15 and path.choose(path.atom("plain", 0, 1))
+        known = shift <= 15 if core == ARMV6M else shift == constant_of(machine, "EL_ROW_SHIFT")
+        plain = known and path.choose(path.atom("plain", 0, 1))
         return [Pointer([transform]), machine.exactly("uint32_t", 0), place, machine.exactly("_Bool", int(plain))]
 
     return domain
@@ -131,18 +134,35 @@ def rows_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     require(split == min(arguments[3].poly.known, 15) and split + over == arguments[3].poly.known, "where it is split")
     row = transform.content["rows"].content[0]
     high, low = machine.poly(row, "high", 0), machine.poly(row, "low", 0)
-    path.prove(element - high * (1 << split) - low, "the element", zero=True)
-    path.prove((1 << (split - 1)) - low, "low is short")
-    path.prove((1 << (split - 1)) + low, "low is short")
-    rest = machine.poly(row, "rest_high") * (1 << split) + machine.poly(row, "rest_low")
-    path.prove((1 << split) - 1 - machine.poly(row, "rest_low"), "the lower rest is short")
+    up = 1 << (15 - split)
+    path.prove((element - high * (1 << split)) * up - low, "the element", zero=True)
+    path.prove(2**14 - low, "low is short")
+    path.prove(2**14 + low, "low is short")
+    rest = machine.poly(row, "rest_high") * 2**15 + machine.poly(row, "rest_low")
+    path.prove(2**15 - 1 - machine.poly(row, "rest_low"), "the lower rest is short")
     turns = path.floor(offset, 1 << split + over + 32)
     whole = machine.poly(row, "whole") + turns * 2**32
-    path.prove(offset - whole * (1 << split + over) - rest, "the offset, modulo 2^32 of the whole", zero=True)
+    path.prove((offset - whole * (1 << split + over)) * up - rest, "the offset, modulo 2^32 of the whole", zero=True)
 
 
-FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M)}
+FORM = {"form_value": form(""), "form_value, armv6m": form(ARMV6M), "form_value, small": form(SMALL_CODE)}
 ROWS = Subject(VERTEX, "el_transform_set_rows", rows_domain, rows_check, core=ARMV6M)
+
+
+def raised_check(machine: Machine, arguments: list[Any], _: Any) -> None:
+    """All of the row is moved up alike, to the shift that is known, or not at all; the offset modulo 2^64."""
+    transform, path = arguments[0].cell, machine.path
+    element, offset = machine.poly(arguments[1].cells[0].content[0]), machine.poly(arguments[2].cells[0])
+    raised, shift = machine.poly(transform, "raise").known, machine.poly(transform, "shift").known
+    require(shift == arguments[3].poly.known + raised, "the shift")
+    require(raised == 0 or shift == constant_of(machine, "EL_ROW_SHIFT"), "up to what is known")
+    row = transform.content["rows"].content[0]
+    path.prove(machine.poly(row, "elements", 0) - element * (1 << raised), "the element", zero=True)
+    turns = path.floor(offset * (1 << raised) + 2**63, 2**64)
+    path.prove(machine.poly(row, "offset") - offset * (1 << raised) + turns * 2**64, "the offset", zero=True)
+
+
+RAISED = Subject(VERTEX, "el_transform_set_rows", rows_domain, raised_check, ["el_transform_set_rows"])
 
 # --- where it lies ----------------------------------------------------------------------------------------------------
 
@@ -489,6 +509,7 @@ PUT_BACK = Subject(CLIP, "el_clip_polygon", put_back_domain, put_back_check)
 
 SUBJECTS = {
     **FORM,
+    "rows": RAISED,
     "rows, armv6m": ROWS,
     "outcode": OUTCODE,
     "snap": SNAP,
@@ -538,12 +559,16 @@ def test_the_compiler_agrees(name: str, bits: int) -> None:
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("form_value", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
-        ("form_value", VERTEX, "(32 - transform->shift)", "(31 - transform->shift)"),
-        ("form_value, armv6m", VERTEX, "(uint32_t)(low >> transform->split)", "((uint32_t)low >> transform->split)"),
+        ("form_value", VERTEX, "(uint32_t)sum >> shift)", "(uint32_t)(sum + 1U) >> shift)"),
+        ("form_value", VERTEX, "(32U - shift)", "(31U - shift)"),
+        ("form_value", VERTEX, "plain ? (unsigned)EL_ROW_SHIFT", "!plain ? (unsigned)EL_ROW_SHIFT"),
+        ("form_value, small", VERTEX, "(uint32_t)sum >> transform->shift", "(uint32_t)(sum + 1U) >> transform->shift"),
+        ("rows", VERTEX, "all >> (31U - missing)", "all >> (32U - missing)"),
+        ("rows", VERTEX, "elements[i][j] * (1 << raise)", "elements[i][j] * (1 << (raise / 2U))"),
+        ("form_value, armv6m", VERTEX, "(uint32_t)(low >> EL_ROW_SHIFT)", "((uint32_t)low >> EL_ROW_SHIFT)"),
         ("form_value, armv6m", VERTEX, "plain ? row->whole :", "!plain ? row->whole :"),
         ("form_value, armv6m", "geometry/transform.h", "EL_ROW_MOST = 0x70000000", "EL_ROW_MOST = 0x7FFFFFFF"),
-        ("rows, armv6m", VERTEX, "shift < 15U ? shift : 15U", "shift < 16U ? shift : 16U"),
+        ("rows, armv6m", VERTEX, "shift < EL_ROW_SHIFT ? shift", "shift < EL_ROW_SHIFT ? shift - 1U"),
         ("rows, armv6m", VERTEX, "(1 << (split - 1U))) >> split", "(1 << (split - 1U)) + 1) >> split"),
         ("rows, armv6m", VERTEX, "offsets[i], shift) >> split", "offsets[i], shift - 1U) >> split"),
         ("outcode", VERTEX, "vertex->d < transform->near ?", "vertex->d < transform->near - 1 ?"),

@@ -138,7 +138,7 @@ static void test_normalising(void)
                                                                        : (uint32_t)any_u64(&s));
         uint32_t x = first | below;
         const unsigned zeros = el_normalise(&x);
-        if (zeros != s.round % 32 || x != (first | below) << zeros) {
+        if (zeros != s.round % 32 || x != (first | below) << zeros || zeros != el_leading_zeros(first | below)) {
             fail_at(&s, "%lx moved up by %u: %lx", (unsigned long)(first | below), zeros, (unsigned long)x);
         }
     }

@@ -369,15 +369,6 @@ static void test_coarse_units_are_fine_for_small_meshes(void)
     }
 }
 
-static int32_t element_of(const el_row *row, unsigned j)
-{
-#if defined(EL_PRODUCTS_IN_HALVES)
-    return row->high[j] * (1 << transform.split) + row->low[j];
-#else
-    return row->elements[j];
-#endif
-}
-
 /* However small its sphere and however far from it its origin, a mesh's rows are what el_transform_set_rows asks for. */
 static void test_rows_of_the_smallest_meshes(void)
 {
@@ -409,7 +400,7 @@ static void test_rows_of_the_smallest_meshes(void)
         for (unsigned i = 0; i < 3; i++) {
             uint64_t sum = 0;
             for (unsigned j = 0; j < 3; j++) {
-                sum += el_abs_u64(element_of(&transform.rows[i], j));
+                sum += el_abs_u64(el_transform_element(&transform, i, j));
             }
             if (sum > EL_ROW_MOST) {
                 fail_at(&s, "row %u adds up to %llu", i, (unsigned long long)sum);

@@ -27,7 +27,7 @@ static void expect_in_view(const el_transform *transform, const int16_t position
     const int16_t positions[2][3] = {{position[0], position[1], position[2]}, {position[0], position[1], position[2]}};
     el_screen_vertex found[3] = {0};
     el_transform_vertex_in_view(transform, position, &found[0]);
-    el_transform_vertices(transform, positions, 2, &found[1]);
+    el_transform_vertices(transform, positions, 2, &found[1], true);
     for (unsigned i = 0; i < 3; i++) {
         const unsigned sides = found[i].code & EL_CODE_OUTSIDE;
         TEST_ASSERT_EQUAL(vertex->code == 0 ? 0 : sides | EL_CODE_LATER, found[i].code);

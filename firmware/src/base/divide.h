@@ -58,6 +58,26 @@ static inline uint32_t el_reciprocal_near(uint32_t d)
     return (first << 16) + ((first * (left >> 2)) >> 13);
 }
 
+/* 2^61 / d for 2^30 <= d < 2^31, too low by less than EL_RECIPROCAL_LOW and too high by less than EL_RECIPROCAL_HIGH: all
+ * 2^30 of them were tried. A first quotient that times d is so near to a power of two that the lower word has all of what
+ * is left, and that times the quotient. For what is compared with these bounds: cores have it in ways of their own. */
+enum { EL_RECIPROCAL_LOW = 4, EL_RECIPROCAL_HIGH = 3 };
+static inline uint32_t el_reciprocal_beside(uint32_t d)
+{
+#if defined(EL_DIVIDE_BY_TABLE)
+    /* The guess has 10 bits, 2^45 / d. */
+    const int32_t guess = el_first_guesses[(d >> 21) - 512U];
+    const int32_t off = (int32_t)((d >> 5) * (uint32_t)guess); /* d guess / 2^5 - 2^40, within 2^30 */
+    const uint32_t first = (uint32_t)(2 * guess - ((guess * (off >> 15)) >> 24)); /* 2^15 to 2^16 */
+    const int32_t left = (int32_t)(d * first);                                    /* d first - 2^46, within 2^31 */
+    return (first << 15) - (uint32_t)(((int32_t)first * (left >> 16)) >> 15);
+#else
+    const uint32_t first = 0xFFFFFFFFU / (d >> 13); /* below 2^15 */
+    const int32_t left = (int32_t)(d * first);      /* d first - 2^45, within 2^31 */
+    return (first << 16) - (uint32_t)(((int64_t)left * (int32_t)(first << 3)) >> 32);
+#endif
+}
+
 /* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
  * one, the paper's table elsewhere. */
 #if defined(EL_DIVIDE_BY_TABLE)

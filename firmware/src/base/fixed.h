@@ -13,6 +13,7 @@
 /* A core without a 32 x 32 -> 64 bit product (Armv6-M) has products of 32 bits instead, where they need not be short. */
 #if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
 #define EL_PRODUCTS_IN_HALVES
+#define EL_ZEROS_BY_TABLE /* nor does it have an instruction that counts leading zeros */
 #endif
 
 /* What was read from memory is read again behind this: of eight registers none is kept for it. */
@@ -28,40 +29,36 @@ static inline int el_bit_length_u32(uint32_t x)
     return x == 0 ? 0 : 32 - __builtin_clz(x);
 }
 
+#if defined(EL_ZEROS_BY_TABLE)
+/* Leading zeros of a byte. */
+extern const uint8_t el_zeros_of_byte[256];
+#endif
+
+/* Leading zeros of x. Pre: x > 0. */
+static inline unsigned el_leading_zeros(uint32_t x)
+{
+#if defined(EL_ZEROS_BY_TABLE)
+    /* Without an instruction for it; nearly all numbers that are asked for have a bit in their first byte. */
+    unsigned zeros = 0;
+    for (; x >> 24 == 0; x <<= 8) {
+        zeros += 8;
+    }
+    return zeros + el_zeros_of_byte[x >> 24];
+#else
+    return (unsigned)__builtin_clz(x);
+#endif
+}
+
 /* Moves *x up until its top bit is set. Returns by how much. Pre: *x > 0. */
 EL_INLINE unsigned el_normalise(uint32_t *x)
 {
-#if defined(EL_PRODUCTS_IN_HALVES)
-    /* Without an instruction for it: half of the bits that are left at a time, rather than a call. */
-    uint32_t moved = *x;
-    unsigned zeros = 0;
-    if (moved >> 16 == 0) {
-        moved <<= 16;
-        zeros = 16;
-    }
-    if (moved >> 24 == 0) {
-        moved <<= 8;
-        zeros += 8;
-    }
-    if (moved >> 28 == 0) {
-        moved <<= 4;
-        zeros += 4;
-    }
-    if (moved >> 30 == 0) {
-        moved <<= 2;
-        zeros += 2;
-    }
-    if (moved >> 31 == 0) {
-        moved <<= 1;
-        zeros += 1;
-    }
-    *x = moved;
-    return zeros;
-#else
+#if EL_SMALL_CODE /* what all files share names nothing that each has for itself */
     const unsigned zeros = (unsigned)__builtin_clz(*x);
+#else
+    const unsigned zeros = el_leading_zeros(*x);
+#endif
     *x <<= zeros;
     return zeros;
-#endif
 }
 
 static inline int el_bit_length_u64(uint64_t x)

@@ -1,5 +1,6 @@
 /* For cores without a divider, to which a division costs a hundred instructions: tables, and divisions that are rare enough
- * not to be inline. Where size counts they divide. tests/unit/test_divide.c computes the tables anew. */
+ * not to be inline. Where size counts they divide. tests/unit/test_divide.c computes the tables anew. Such a core has no
+ * instruction for leading zeros either: tests/unit/test_reciprocals.c tries their table. */
 #include "base/divide.h"
 
 #if defined(EL_DIVIDE_BY_TABLE)
@@ -137,4 +138,14 @@ uint64_t el_divide_small_apart_q32(int32_t n, int32_t d)
     }
     return (n < 0) != (d < 0) ? 0 - quotient : quotient;
 }
+#endif
+
+#if defined(EL_ZEROS_BY_TABLE)
+#define ZEROS_4(n) n, n, n, n
+#define ZEROS_16(n) ZEROS_4(n), ZEROS_4(n), ZEROS_4(n), ZEROS_4(n)
+#define ZEROS_64(n) ZEROS_16(n), ZEROS_16(n), ZEROS_16(n), ZEROS_16(n)
+const uint8_t el_zeros_of_byte[256] = {
+    8,          7,          6,           6,           5,           5,           5,           5,
+    ZEROS_4(4), ZEROS_4(4), ZEROS_16(3), ZEROS_16(2), ZEROS_16(2), ZEROS_64(1), ZEROS_64(0), ZEROS_64(0),
+};
 #endif

@@ -26,7 +26,8 @@ static void transform_run(const el_drawing *d, uint32_t first, uint32_t count, e
         el_transform_vertex(&d->state->transform, d->mesh->positions[first + i], &screen[i]);
     }
 #else
-    el_transform_vertices(&d->state->transform, d->mesh->positions + first, count, screen);
+    el_transform_vertices(&d->state->transform, d->mesh->positions + first, count, screen,
+                          d->kind == EL_RECORD_PERSPECTIVE);
 #endif
 }
 

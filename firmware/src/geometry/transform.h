@@ -61,12 +61,15 @@ enum {
 /* Of a row's elements, and the most that their magnitudes add up to: what a core without long products adds up in 32 bits. */
 enum { EL_ROW_BITS = 29, EL_ROW_MOST = 0x70000000 };
 
+/* What rows are shifted by where they can be: with it known a coordinate takes two instructions less. */
+enum { EL_ROW_SHIFT = 15 };
+
 /* A clip coordinate as a linear form on positions: (offset + the sum of element times position) / 2^shift, rounded down.
  * |offset| < 2^62. */
 typedef struct el_row {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    /* Products of 32 bits: element = high * 2^split + low, |low| <= 2^(split - 1);
-     * offset = whole * 2^shift + rest_high * 2^split + rest_low, 0 <= rest_low < 2^split, shift = split + over. */
+    /* Products of 32 bits: element = high * 2^split + low / up, |low| <= 2^14, up = 2^(EL_ROW_SHIFT - split);
+     * offset = whole * 2^shift + rest_high * 2^split + rest_low / up, rest_low < 2^15, shift = split + over. */
     uint16_t rest_high;
     uint16_t rest_low;
     uint32_t whole;
@@ -84,6 +87,9 @@ typedef struct el_transform {
     uint8_t over;  /* 0..16, and 0 where split is not 15 */
 #else
     uint8_t shift; /* 1..31 */
+#if !EL_SMALL_CODE
+    uint8_t raise; /* 0..14: rows and shift were moved up by so much */
+#endif
 #endif
     uint8_t orthographic;
     uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
@@ -100,13 +106,26 @@ typedef struct el_transform {
     uint64_t near_q32;    /* near with 32 bits of fraction; near_q32 <= near * 2^32 */
 } el_transform;
 
+#if !defined(EL_PRODUCTS_IN_HALVES)
+static inline unsigned el_transform_raise(const el_transform *transform)
+{
+#if EL_SMALL_CODE
+    (void)transform;
+    return 0;
+#else
+    return transform->raise;
+#endif
+}
+#endif
+
 /* An element of a row, per position unit times 2^el_transform_shift. */
 static inline int32_t el_transform_element(const el_transform *transform, unsigned row, unsigned i)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)
-    return transform->rows[row].high[i] * (1 << transform->split) + transform->rows[row].low[i];
+    return transform->rows[row].high[i] * (1 << transform->split) +
+           (transform->rows[row].low[i] >> (EL_ROW_SHIFT - transform->split));
 #else
-    return transform->rows[row].elements[i];
+    return transform->rows[row].elements[i] >> el_transform_raise(transform);
 #endif
 }
 
@@ -115,7 +134,7 @@ static inline unsigned el_transform_shift(const el_transform *transform)
 #if defined(EL_PRODUCTS_IN_HALVES)
     return (unsigned)transform->split + transform->over;
 #else
-    return transform->shift;
+    return transform->shift - el_transform_raise(transform);
 #endif
 }
 
@@ -163,9 +182,9 @@ void el_transform_vertex(const el_transform *transform, const int16_t position[3
  * will ask for more: where they do, el_transform_vertex has it. */
 void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen);
 
-/* That for `count` of them. */
+/* That for `count` of them. Without `keeps_w`, w and w_shift are not valid: nothing but textures asks for 1/w. */
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
-                           el_screen_vertex *screen);
+                           el_screen_vertex *screen, bool keeps_w);
 
 /* Where a clip vertex lies. */
 uint8_t el_outcode(const el_transform *transform, const el_clip_vertex *vertex);

@@ -30,18 +30,20 @@ static uint32_t low_bits(uint32_t value, unsigned bits)
 void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
                            unsigned shift)
 {
-    /* With 15 bits below, both sums fit 32 bits; with no more than will be shifted out, the upper one needs no shift. */
-    const unsigned split = shift < 15U ? shift : 15U;
+    /* With 15 bits below, both sums fit 32 bits; with no more than will be shifted out, the upper one needs no shift. The
+     * lower one has 15 all the same: by what is known it is shifted faster. */
+    const unsigned split = shift < EL_ROW_SHIFT ? shift : (unsigned)EL_ROW_SHIFT;
+    const unsigned raise = (unsigned)EL_ROW_SHIFT - split;
     transform->split = (uint8_t)split;
     transform->over = (uint8_t)(shift - split);
     for (unsigned i = 0; i < 3; i++) {
         el_row *const row = &transform->rows[i];
         row->whole = (uint32_t)((uint64_t)offsets[i] >> shift);
         row->rest_high = (uint16_t)(low_bits((uint32_t)offsets[i], shift) >> split);
-        row->rest_low = (uint16_t)low_bits((uint32_t)offsets[i], split);
+        row->rest_low = (uint16_t)(low_bits((uint32_t)offsets[i], split) << raise);
         for (unsigned j = 0; j < 3; j++) {
             row->high[j] = (elements[i][j] + (1 << (split - 1U))) >> split;
-            row->low[j] = elements[i][j] - row->high[j] * (1 << split);
+            row->low[j] = (elements[i][j] - row->high[j] * (1 << split)) * (1 << raise);
         }
     }
 }
@@ -57,7 +59,7 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, el_p
     low += row->low[0] * p.x;
     low += row->low[1] * p.y;
     low += row->low[2] * p.z;
-    high += (uint32_t)(low >> transform->split);
+    high += (uint32_t)(low >> EL_ROW_SHIFT);
     high += (uint32_t)row->high[0] * (uint32_t)p.x;
     high += (uint32_t)row->high[1] * (uint32_t)p.y;
     high += (uint32_t)row->high[2] * (uint32_t)p.z;
@@ -66,12 +68,12 @@ static inline int32_t form_value(const el_transform *transform, unsigned i, el_p
     return value;
 }
 
-/* In perspective, and no bit is shifted out of upper sums: nearly all draws. */
+/* No bit is shifted out of upper sums, and depth has its short way, as it has in perspective alone: nearly all draws. */
 static inline bool is_plain(const el_transform *transform)
 {
-    return transform->over == 0 && !el_transform_is_orthographic(transform);
+    return transform->over == 0 && transform->depth_excess != 0;
 }
-#else
+#elif EL_SMALL_CODE
 void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
                            unsigned shift)
 {
@@ -99,6 +101,67 @@ static inline bool is_plain(const el_transform *transform)
     (void)transform;
     return false;
 }
+#else
+/* How far elements with `shift` can be moved up on the way to EL_ROW_SHIFT, all or nothing. */
+static unsigned raise_of(const int32_t elements[3][3], unsigned shift)
+{
+    uint32_t all = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned j = 0; j < 3; j++) {
+            const int32_t element = elements[i][j];
+            all |= (uint32_t)(element < 0 ? ~element : element);
+        }
+    }
+    const unsigned missing = shift < EL_ROW_SHIFT ? EL_ROW_SHIFT - shift : 0U;
+    return all >> (31U - missing) == 0 ? missing : 0U;
+}
+
+void el_transform_set_rows(el_transform *transform, const int32_t elements[3][3], const int64_t offsets[3],
+                           unsigned shift)
+{
+    const unsigned raise = raise_of(elements, shift);
+    transform->shift = (uint8_t)(shift + raise);
+    transform->raise = (uint8_t)raise;
+    for (unsigned i = 0; i < 3; i++) {
+        transform->rows[i].offset = (int64_t)((uint64_t)offsets[i] << raise);
+        for (unsigned j = 0; j < 3; j++) {
+            transform->rows[i].elements[j] = elements[i][j] * (1 << raise);
+        }
+    }
+}
+
+/* Products are added where they are made, to a sum that begins with the offset: a compiler that may add in any order
+ * makes products first and adds them afterwards. */
+static inline uint64_t in_this_order(uint64_t sum)
+{
+#if defined(__thumb__)
+    uint32_t low = (uint32_t)sum;
+    uint32_t high = (uint32_t)(sum >> 32);
+    __asm__("" : "+r"(low), "+r"(high));
+    return (uint64_t)high << 32 | low;
+#else
+    return sum;
+#endif
+}
+
+/* `plain`: the shift is EL_ROW_SHIFT. */
+static inline int32_t form_value(const el_transform *transform, unsigned i, el_place p, bool plain)
+{
+    /* Modulo 2^64, of which the sum has the lower bits: three products below 2^48 and an offset below 2^62, raised. */
+    const el_row *const row = &transform->rows[i];
+    uint64_t sum = in_this_order((uint64_t)row->offset + (uint64_t)((int64_t)row->elements[0] * p.x));
+    sum = in_this_order(sum + (uint64_t)((int64_t)row->elements[1] * p.y));
+    sum += (uint64_t)((int64_t)row->elements[2] * p.z);
+    /* The lower word of sum >> shift, 1 <= shift <= 31. */
+    const unsigned shift = plain ? (unsigned)EL_ROW_SHIFT : transform->shift;
+    return (int32_t)((uint32_t)(sum >> 32) << (32U - shift) | (uint32_t)sum >> shift);
+}
+
+/* Shifts are known, and depth has its short way, as it has in perspective alone: nearly all draws. */
+static inline bool is_plain(const el_transform *transform)
+{
+    return transform->shift == EL_ROW_SHIFT && transform->depth_excess != 0;
+}
 #endif
 
 void el_transform_set_depth(el_transform *transform, uint64_t near_q32, uint32_t scale_q12)
@@ -113,17 +176,18 @@ void el_transform_set_depth(el_transform *transform, uint64_t near_q32, uint32_t
     const int shift = el_bit_length_u64(near_q32) - 32;
     if (shift >= 0 && scale_q12 < 1U << 29) {
         transform->depth_near = el_product_high_u32(scale_q12 << 3, (uint32_t)(near_q32 >> shift));
-        transform->depth_excess = (uint8_t)(32 - shift);
+        transform->depth_excess = (uint8_t)(31 - shift);
     }
 #endif
 }
 
 el_clip_vertex el_transform_position(const el_transform *transform, const int16_t position[3])
 {
+    const bool plain = is_plain(transform);
     const el_place place = place_of(position);
     int32_t coordinates[3];
     for (unsigned i = 0; i < 3; i++) {
-        coordinates[i] = form_value(transform, i, place, is_plain(transform));
+        coordinates[i] = form_value(transform, i, place, plain);
     }
     const int32_t d = coordinates[2];
     return (el_clip_vertex){.x = coordinates[0],
@@ -205,50 +269,56 @@ void el_project(const el_transform *transform, const el_clip_vertex *vertex, el_
 }
 
 #if !EL_SMALL_CODE
-/* snap without the last bits, for what is in the view. c + w is in [0, 2w], so with w moved up to 31 bits, and c + w alike,
- * no bit is lost, and their ratio with 30 bits of fraction is a product with the reciprocal, too low by less than
- * EL_RECIPROCAL_ERROR + EL_PRODUCT_ERROR units, 21. Times size * 2^-11 it is the result with SNAP_FRACTION bits, too low
- * by less than 20.93 units and what is cut off of one: with SNAP_OFF more it is too high, if at all by no more than these.
- * False where that might matter: just above a tie. */
-enum { SNAP_OFF = 21, SNAP_FRACTION = 20 - EL_SUBPIXEL_BITS };
-static inline bool snap_fast(uint32_t from_the_side, uint16_t size, uint32_t reciprocal, el_coordinate *result)
+/* What a draw's vertices are snapped with. */
+typedef struct el_scales {
+    uint32_t width; /* times 2^5 */
+    uint32_t height;
+    uint32_t depth; /* of what is infinitely far, with DEPTH_FRACTION bits, and the half for rounding */
+} el_scales;
+
+/* Results are beside the exact ones by less than 2^TIE_BITS units of their fractions, and are not taken when they are so
+ * near to a step. */
+enum { TIE_BITS = 4, SNAP_FRACTION = 19 - EL_SUBPIXEL_BITS, DEPTH_FRACTION = 13, W_FRACTION = 15 };
+static inline bool is_near_step(uint32_t value, unsigned fraction)
 {
-    const uint32_t ratio = el_product_near_u32(from_the_side, reciprocal);
-    const uint32_t scaled =
-        el_product_high_u16(ratio, (uint32_t)size << 5) + ((1U << SNAP_FRACTION) / 2U + (uint32_t)SNAP_OFF);
-    *result = (el_coordinate)(scaled >> SNAP_FRACTION);
-    return (scaled & ((1U << SNAP_FRACTION) - 1U)) >= SNAP_OFF;
+    return (value & ((1U << fraction) - (1U << TIE_BITS))) == 0;
 }
 
-/* depth_of without the last bits: scale * near / w in Q14, too low by less than EL_RECIPROCAL_ERROR + EL_PRODUCT_ERROR
- * units, one for what depth_near lacks, and what is cut off of one; depth_of's own is less than half of one above it. So
- * the depth is too high by less than DEPTH_OFF and a half. False where that might matter. */
-enum { DEPTH_OFF = 23, DEPTH_FRACTION = 14 };
-static inline bool depth_fast(const el_transform *transform, unsigned w_shift, uint32_t reciprocal, uint16_t *result)
+/* snap without the last bits, for what is in the view, with SNAP_FRACTION bits. c + w is in [0, 2w], so with w moved up
+ * to 31 bits, and c + w alike, no bit is lost, and their ratio with 29 bits of fraction is a product with the reciprocal:
+ * too low by less than EL_RECIPROCAL_LOW + EL_PRODUCT_ERROR, 7, or too high by less than EL_RECIPROCAL_HIGH. Times
+ * size * 2^-11 that is the result, too low by less than 8 with what is cut off of it: with so much more, it is too high
+ * by less than 11. */
+enum { SNAP_OFF = 8 };
+static inline uint32_t snap_fast(uint32_t from_the_side, uint32_t size, uint32_t reciprocal)
 {
-    /* Where depth_near is used, near <= w, so the excess is 0 at least, and 31 at most since w_shift is 1 at least. */
-    const int excess = (int)transform->depth_excess - (int)w_shift;
-    if (excess < 0) {
-        return false;
-    }
+    const uint32_t ratio = el_product_near_u32(from_the_side, reciprocal);
+    return el_product_high_u16(ratio, size) + ((1U << SNAP_FRACTION) / 2U + (uint32_t)SNAP_OFF);
+}
+
+/* depth_of without the last bits, with DEPTH_FRACTION bits: scale * near / w is a product with the reciprocal, too low by
+ * less than EL_RECIPROCAL_LOW + EL_PRODUCT_ERROR, one for what depth_near lacks, and what is cut off of one, 9, or too high
+ * by less than EL_RECIPROCAL_HIGH; depth_of's own is less than a quarter of one above it. With DEPTH_OFF more, in
+ * scales.depth, the depth is too high by less than 14. near <= w, so depth_excess is not below w_shift. */
+enum { DEPTH_OFF = 4 };
+static inline uint32_t depth_fast(const el_transform *transform, const el_scales *scales, unsigned w_shift,
+                                  uint32_t reciprocal)
+{
     const uint32_t product = el_product_near_u32(transform->depth_near, reciprocal);
-    const uint32_t z = (transform->depth_scale << 2) + (1U << DEPTH_FRACTION) / 2U - (product >> excess);
-    const uint32_t whole = z >> DEPTH_FRACTION;
-    if ((z & ((1U << DEPTH_FRACTION) - 1U)) < DEPTH_OFF || whole > EL_DEPTH_MAX) {
-        return false;
-    }
-    *result = (uint16_t)whole;
-    return true;
+    return scales->depth - (product >> (transform->depth_excess - w_shift));
 }
 
 /* keep_reciprocal from the reciprocal's upper bits. False where what it lacks might matter, and where it would be
  * rounded to more than 16 bits. */
 static inline bool keep_reciprocal_fast(el_screen_vertex *screen, unsigned w_shift, uint32_t reciprocal)
 {
-    const uint32_t rounded = reciprocal + (0x8000U + (uint32_t)EL_RECIPROCAL_ERROR);
-    screen->w = (uint16_t)(rounded >> 16);
-    screen->w_shift = (uint8_t)(31U - w_shift);
-    return (rounded & 0xFFFFU) >= EL_RECIPROCAL_ERROR && (int32_t)rounded < 0;
+    const uint32_t rounded = reciprocal + ((1U << W_FRACTION) / 2U + (uint32_t)EL_RECIPROCAL_LOW);
+    if (is_near_step(rounded, W_FRACTION) || (int32_t)rounded < 0) {
+        return false;
+    }
+    screen->w = (uint16_t)(rounded >> W_FRACTION);
+    screen->w_shift = (uint8_t)(30U - w_shift);
+    return true;
 }
 
 /* With all bits, where the last ones might matter: one vertex in some hundreds. */
@@ -260,8 +330,9 @@ static EL_SELDOM void project_again(const el_transform *transform, const int16_t
 
 /* One comparison for each coordinate, and what is outside by one is not asked for the others. False where it is to be
  * projected again. */
-static EL_SPECIALISED bool transform_in_view(const el_transform *transform, const int16_t position[3],
-                                             el_screen_vertex *screen, bool plain)
+static EL_SPECIALISED bool transform_in_view(const el_transform *transform, const el_scales *scales,
+                                             const int16_t position[3], el_screen_vertex *screen, bool keeps_w,
+                                             bool plain)
 {
     const el_place place = place_of(position);
     const int32_t d = form_value(transform, 2, place, plain);
@@ -271,7 +342,7 @@ static EL_SPECIALISED bool transform_in_view(const el_transform *transform, cons
         return true;
     }
     const bool orthographic = !plain && el_transform_is_orthographic(transform);
-    const uint32_t w = (uint32_t)(orthographic ? transform->constant_w : d); /* 1 at least */
+    const uint32_t w = (uint32_t)(orthographic ? transform->constant_w : d); /* 1 at least, below 2^31 */
     const int32_t x = form_value(transform, 0, place, plain);
     const uint32_t from_left = w + (uint32_t)x;
     if (from_left > 2U * w) {
@@ -286,45 +357,63 @@ static EL_SPECIALISED bool transform_in_view(const el_transform *transform, cons
     }
 
     screen->code = 0;
-    uint32_t normalised = w;
-    const unsigned shift = el_normalise(&normalised); /* w < 2^31: 1 at least */
-    const uint32_t reciprocal = el_reciprocal_near(normalised);
-    return snap_fast(from_left << (shift - 1U), transform->size[0], reciprocal, &screen->x) &&
-           snap_fast(from_above << (shift - 1U), transform->size[1], reciprocal, &screen->y) &&
-           keep_reciprocal_fast(screen, shift, reciprocal) && depth_fast(transform, shift, reciprocal, &screen->z);
+    if (!plain && transform->depth_excess == 0) {
+        return false;
+    }
+    const unsigned shift = el_leading_zeros(2U * w);
+    const uint32_t reciprocal = el_reciprocal_beside(w << shift);
+    const uint32_t right = snap_fast(from_left << shift, scales->width, reciprocal);
+    const uint32_t down = snap_fast(from_above << shift, scales->height, reciprocal);
+    const uint32_t depth = depth_fast(transform, scales, shift, reciprocal);
+    if (is_near_step(right, SNAP_FRACTION) || is_near_step(down, SNAP_FRACTION) ||
+        is_near_step(depth, DEPTH_FRACTION) || depth >> DEPTH_FRACTION > EL_DEPTH_MAX) {
+        return false;
+    }
+    screen->x = (el_coordinate)(right >> SNAP_FRACTION);
+    screen->y = (el_coordinate)(down >> SNAP_FRACTION);
+    screen->z = (uint16_t)(depth >> DEPTH_FRACTION);
+    return !keeps_w || keep_reciprocal_fast(screen, shift, reciprocal);
 }
 
 static EL_SPECIALISED void transform_vertices(const el_transform *transform, const int16_t (*positions)[3],
-                                              uint32_t count, el_screen_vertex *screen, bool plain)
+                                              uint32_t count, el_screen_vertex *screen, bool keeps_w, bool plain)
 {
+    const el_scales scales = {
+        .width = (uint32_t)transform->size[0] << 5,
+        .height = (uint32_t)transform->size[1] << 5,
+        .depth = (transform->depth_scale << 1) + ((1U << DEPTH_FRACTION) / 2U + (uint32_t)DEPTH_OFF),
+    };
     const el_screen_vertex *const end = screen + count;
     for (; screen != end; screen++) {
-        if (!transform_in_view(transform, *positions, screen, plain)) {
+        if (!transform_in_view(transform, &scales, *positions, screen, keeps_w, plain)) {
             project_again(transform, *positions, screen);
         }
         positions++;
     }
 }
 
+/* A loop of its own for draws without 1/w. Where rows are long, so are loops, and the test is the smaller part. */
+#if defined(EL_PRODUCTS_IN_HALVES)
+enum { LOOPS_WITHOUT_W = 0 };
+#else
+enum { LOOPS_WITHOUT_W = 1 };
+#endif
+
 void el_transform_vertices(const el_transform *transform, const int16_t (*positions)[3], uint32_t count,
-                           el_screen_vertex *screen)
+                           el_screen_vertex *screen, bool keeps_w)
 {
-    if (is_plain(transform)) {
-        transform_vertices(transform, positions, count, screen, true);
+    if (!is_plain(transform)) {
+        transform_vertices(transform, positions, count, screen, keeps_w, false);
+    } else if (LOOPS_WITHOUT_W && !keeps_w) {
+        transform_vertices(transform, positions, count, screen, false, true);
     } else {
-        transform_vertices(transform, positions, count, screen, false);
+        transform_vertices(transform, positions, count, screen, keeps_w, true);
     }
 }
 
 void el_transform_vertex_in_view(const el_transform *transform, const int16_t position[3], el_screen_vertex *screen)
 {
-#if defined(EL_PRODUCTS_IN_HALVES)
-    el_transform_vertices(transform, (const int16_t(*)[3])position, 1, screen); /* not a third copy of so much */
-#else
-    if (!transform_in_view(transform, position, screen, false)) {
-        project_again(transform, position, screen);
-    }
-#endif
+    el_transform_vertices(transform, (const int16_t(*)[3])position, 1, screen, true); /* not a copy of so much */
 }
 #endif
 
