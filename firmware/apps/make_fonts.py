@@ -13,14 +13,13 @@ import argparse
 import sys
 from pathlib import Path
 
+from PIL import ImageFont
+
+from edgeline.convert.files import write_whole
+from edgeline.convert.font import font_header, font_of, parse_characters, rasterise
+from edgeline.errors import EdgelineError
+
 APPS = Path(__file__).resolve().parent
-sys.path.insert(0, str(APPS.parents[1] / "host"))
-
-from PIL import ImageFont  # noqa: E402
-
-from edgeline.convert.files import write_whole  # noqa: E402
-from edgeline.convert.font import font_header, font_of, parse_characters, rasterise  # noqa: E402
-from edgeline.errors import EdgelineError  # noqa: E402
 
 ABOUT = "Made by firmware/apps/make_fonts.py. Aileron is free of rights (CC0 1.0): see LICENSE beside it."
 FONTS = (

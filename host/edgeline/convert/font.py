@@ -129,6 +129,8 @@ def rasterise(font: ImageFont.FreeTypeFont, characters: Sequence[int], bits: int
         raise EdgelineError(f"the font is damaged ({error}); give another one") from error
     if not glyphs:
         raise EdgelineError("the font has none of the characters of --range; give others")
+    if not any(glyph.levels.size for glyph in glyphs.values()):
+        raise EdgelineError("nothing of the characters of --range can be seen: the font is damaged, or give others")
     family = " ".join(part for part in font.getname() if part)
     ascent, descent = font.getmetrics()
     missing = [character for character in characters if character not in glyphs]
