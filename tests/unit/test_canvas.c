@@ -14,7 +14,7 @@ void tearDown(void)
 static uint32_t channel(uint16_t colour, unsigned i)
 {
     static const unsigned shifts[3] = {11, 5, 0};
-    return colour >> shifts[i] & (i == 1 ? 63U : 31U);
+    return (uint32_t)colour >> shifts[i] & (i == 1 ? 63U : 31U);
 }
 
 /* Every pair of values of each channel, the others being any, with every alpha: rounded to nearest, ties up. */

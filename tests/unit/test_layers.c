@@ -3,7 +3,7 @@
 #include "any_scene.h"
 #include "recording_sink.h"
 
-enum { WIDTH = 40, HEIGHT = 70, PLENTY = 60000, ROUNDS = PART_OF(64), FRAMES = 4 + PART_OF(12) };
+enum { WIDTH = 40, HEIGHT = 70, PLENTY = 60000, ROUNDS = 12 + PART_OF(52), FRAMES = 6 + PART_OF(10) };
 
 static any_scene scene;
 static recording anew, record;

@@ -72,11 +72,11 @@ static inline uint32_t el_image_at(const el_image *image, el_image_format format
         *colour = image->palette[value];
         break;
     case EL_IMAGE_INDEX4:
-        value = (uint16_t)(bytes[y * ((image->width + 1U) / 2U) + x / 2U] >> ((x & 1U) != 0 ? 0 : 4) & 15U);
+        value = (uint16_t)((uint32_t)bytes[y * ((image->width + 1U) / 2U) + x / 2U] >> ((x & 1U) != 0 ? 0 : 4) & 15U);
         *colour = image->palette[value];
         break;
     default:
-        value = (uint16_t)(bytes[y * ((image->width + 7U) / 8U) + x / 8U] >> (7U - (x & 7U)) & 1U);
+        value = (uint16_t)((uint32_t)bytes[y * ((image->width + 7U) / 8U) + x / 8U] >> (7U - (x & 7U)) & 1U);
         *colour = image->palette[0];
         shown = value != 0 ? 256 : 0;
         break;

@@ -60,13 +60,12 @@ typedef struct mix {
     uint32_t shown;            /* at most 2^16 */
 } mix;
 
-static inline void add_to(mix *m, const el_image *image, el_image_format format, uint32_t x, uint32_t y,
-                          uint32_t weight)
+static void add_to(mix *m, const el_image *image, uint32_t x, uint32_t y, uint32_t weight)
 {
-    uint16_t colour = 0;
     /* Left of the image, above it and beyond its ends there is nothing: -1 is beyond, too. */
-    if (x < image->width && y < image->height) {
-        const uint32_t part = el_image_at(image, format, x, y, &colour) * weight;
+    if (weight != 0 && x < image->width && y < image->height) {
+        uint16_t colour;
+        const uint32_t part = el_image_at(image, (el_image_format)image->format, x, y, &colour) * weight;
         m->red += (colour >> 11) * part;
         m->green += (colour >> 5 & 63U) * part;
         m->blue += (colour & 31U) * part;
@@ -74,19 +73,19 @@ static inline void add_to(mix *m, const el_image *image, el_image_format format,
     }
 }
 
-/* Of the four pixels around (u, v), which are moved by a pixel so that they are not below 0. */
-static EL_SPECIALISED uint32_t smooth_at(const el_image *image, el_image_format format, uint32_t u_q16, uint32_t v_q16,
-                                         uint16_t *colour)
+/* Of the four pixels around (u, v), which are moved by a pixel so that they are not below 0. One function for all formats,
+ * which it asks about four times per pixel: one for each would be four times as long. */
+static uint32_t smooth_at(const el_image *image, uint32_t u_q16, uint32_t v_q16, uint16_t *colour)
 {
     const uint32_t x = (u_q16 >> 16) - 1U;
     const uint32_t y = (v_q16 >> 16) - 1U;
     const uint32_t right = u_q16 >> 12 & 15U;
     const uint32_t lower = v_q16 >> 12 & 15U;
     mix m = {0};
-    add_to(&m, image, format, x, y, (16U - right) * (16U - lower));
-    add_to(&m, image, format, x + 1U, y, right * (16U - lower));
-    add_to(&m, image, format, x, y + 1U, (16U - right) * lower);
-    add_to(&m, image, format, x + 1U, y + 1U, right * lower);
+    add_to(&m, image, x, y, (16U - right) * (16U - lower));
+    add_to(&m, image, x + 1U, y, right * (16U - lower));
+    add_to(&m, image, x, y + 1U, (16U - right) * lower);
+    add_to(&m, image, x + 1U, y + 1U, right * lower);
     if (m.shown == 0) {
         return 0;
     }
@@ -104,44 +103,56 @@ typedef struct walk {
     uint32_t u_q16, v_q16;   /* at the row's first column */
     uint32_t u_step, v_step; /* modulo 2^32 */
     uint32_t alpha;          /* 0..256 */
-    bool smooth;
 } walk;
 
-static EL_SPECIALISED void draw_walk(uint16_t *at, uint32_t count, const el_image *image, el_image_format format,
-                                     const walk *w)
+static inline void draw_pixel(uint16_t *at, uint16_t colour, uint32_t shown)
+{
+    if (shown == 256) {
+        *at = colour;
+    } else if (shown != 0) {
+        *at = el_rgb565_blend(*at, colour, shown);
+    }
+}
+
+static EL_SPECIALISED void draw_nearest(uint16_t *at, uint32_t count, const el_image *image, el_image_format format,
+                                        const walk *w)
 {
     uint32_t u_q16 = w->u_q16;
     uint32_t v_q16 = w->v_q16;
     for (; count > 0; count--, at++) {
-        uint16_t colour = 0;
-        const uint32_t there = w->smooth ? smooth_at(image, format, u_q16, v_q16, &colour)
-                                         : el_image_at(image, format, u_q16 >> 16, v_q16 >> 16, &colour);
-        const uint32_t shown = (there * w->alpha + 128U) >> 8;
-        if (shown == 256) {
-            *at = colour;
-        } else if (shown != 0) {
-            *at = el_rgb565_blend(*at, colour, shown);
-        }
+        uint16_t colour;
+        const uint32_t there = el_image_at(image, format, u_q16 >> 16, v_q16 >> 16, &colour);
+        draw_pixel(at, colour, (there * w->alpha + 128U) >> 8);
         u_q16 += w->u_step;
         v_q16 += w->v_step;
     }
 }
 
-static void draw_any(uint16_t *at, uint32_t count, const el_image *image, const walk *w)
+static void draw_smooth(uint16_t *at, uint32_t count, const el_image *image, const walk *w)
 {
-    switch (image->format) {
-    case EL_IMAGE_RGB565:
-        draw_walk(at, count, image, EL_IMAGE_RGB565, w);
-        break;
-    case EL_IMAGE_INDEX8:
-        draw_walk(at, count, image, EL_IMAGE_INDEX8, w);
-        break;
-    case EL_IMAGE_INDEX4:
-        draw_walk(at, count, image, EL_IMAGE_INDEX4, w);
-        break;
-    default:
-        draw_walk(at, count, image, EL_IMAGE_MASK, w);
-        break;
+    uint32_t u_q16 = w->u_q16;
+    uint32_t v_q16 = w->v_q16;
+    for (; count > 0; count--, at++) {
+        uint16_t colour = 0;
+        const uint32_t there = smooth_at(image, u_q16, v_q16, &colour);
+        draw_pixel(at, colour, (there * w->alpha + 128U) >> 8);
+        u_q16 += w->u_step;
+        v_q16 += w->v_step;
+    }
+}
+
+static void draw_row(uint16_t *at, uint32_t count, const el_image *image, bool smooth, const walk *w)
+{
+    if (smooth) {
+        draw_smooth(at, count, image, w);
+    } else if (image->format == EL_IMAGE_RGB565) {
+        draw_nearest(at, count, image, EL_IMAGE_RGB565, w);
+    } else if (image->format == EL_IMAGE_INDEX8) {
+        draw_nearest(at, count, image, EL_IMAGE_INDEX8, w);
+    } else if (image->format == EL_IMAGE_INDEX4) {
+        draw_nearest(at, count, image, EL_IMAGE_INDEX4, w);
+    } else {
+        draw_nearest(at, count, image, EL_IMAGE_MASK, w);
     }
 }
 
@@ -178,9 +189,8 @@ el_status el_canvas_image_turned(const el_canvas *canvas, const el_image *image,
                             .v_q16 = (uint32_t)(v - m.b * begin),
                             .u_step = (uint32_t)m.a,
                             .v_step = (uint32_t)-m.b,
-                            .alpha = el_alpha_256(place->alpha),
-                            .smooth = place->smooth};
-            draw_any(el_canvas_line_at(canvas, y) + begin, (uint32_t)(end - begin), image, &w);
+                            .alpha = el_alpha_256(place->alpha)};
+            draw_row(el_canvas_line_at(canvas, y) + begin, (uint32_t)(end - begin), image, place->smooth, &w);
         }
     }
     return EL_OK;
