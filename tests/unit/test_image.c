@@ -181,12 +181,18 @@ static void test_turned_images_are_what_the_definition_says(void)
     for (s.round = 0; s.round < PART_OF(3000); s.round++) {
         make_sample(&s, &t);
         drawing d = {.image = &t.image};
+        const bool even = any_below(&s, 3) == 0; /* pixels' borders meet */
         d.place = (el_image_place){.x = (int32_t)any_between(&s, -EL_SUB(8), EL_SUB(SIDE + 8)),
                                    .y = (int32_t)any_between(&s, -EL_SUB(8), EL_SUB(SIDE + 8)),
                                    .angle = (el_angle)any_u64(&s) & (any_below(&s, 2) == 0 ? 0xC0000000U : UINT32_MAX),
                                    .scale_q16 = (uint32_t)any_between(&s, 256, 1 << (12 + any_below(&s, 13))),
                                    .smooth = any_below(&s, 2) == 0,
                                    .alpha = (uint8_t)(any_below(&s, 2) == 0 ? 255 : any_u64(&s))};
+        if (even) {
+            d.place.x &= -EL_SUBPIXELS / 2;
+            d.place.y &= -EL_SUBPIXELS / 2;
+            d.place.scale_q16 = 1U << (14 + any_below(&s, 5));
+        }
         fill_with_noise(&s, &p);
         before = p;
         paint_any_bands(&p, draw_turned, &d);

@@ -112,8 +112,8 @@ static bool layers_repeat(const el_config *config, int32_t y, int32_t lines)
 {
     const el_layer *const layers[2] = {config->under, config->over};
     for (unsigned i = 0; i < 2; i++) {
-        if (layers[i] != NULL && (layers[i]->unchanged == NULL ||
-                                  !layers[i]->unchanged(layers[i]->context, (uint16_t)y, (uint16_t)lines))) {
+        if (layers[i] != NULL &&
+            (layers[i]->unchanged == NULL || !layers[i]->unchanged(layers[i]->context, (uint16_t)y, (uint16_t)lines))) {
             return false;
         }
     }
