@@ -165,10 +165,15 @@ void el_card_draw(uint32_t frame, const el_canvas *canvas)
     for (int32_t i = 0; i < 16; i++) { /* what lies below shows through */
         el_canvas_fill(canvas, (el_rect){i * 20, 226, i * 20 + 20, 240}, el_glaze(WHITE, (uint8_t)(i * 17)));
     }
-    stars(canvas);
-    strokes(canvas);
-    round_shapes(canvas);
-    fan(canvas);
+    /* What a band does not see need not be built for it. */
+    if (el_canvas_sees(canvas, (el_rect){0, 30, 320, 95})) {
+        stars(canvas);
+        strokes(canvas);
+    }
+    if (el_canvas_sees(canvas, (el_rect){0, 100, 320, 160})) {
+        round_shapes(canvas);
+        fan(canvas);
+    }
     images(canvas, frame);
     words(canvas);
 }

@@ -177,7 +177,9 @@ void el_horizon_draw(uint32_t frame, const el_canvas *canvas)
     quad(&disc, &a, (el_rect){-EL_SUB(200), a.pitch - EL_SUBPIXELS, EL_SUB(200), a.pitch + EL_SUBPIXELS}, WHITE);
     ladder(&disc, &a);
     bezel(canvas, &a);
-    aircraft(canvas);
+    if (el_canvas_sees(canvas, (el_rect){90, 110, 230, 145})) {
+        aircraft(canvas);
+    }
     tape(canvas, 2, a.speed, 10);
     tape(canvas, 272, a.height, 100);
 }

@@ -52,6 +52,11 @@ void el_hud_draw(uint32_t frame, const el_canvas *canvas)
     el_canvas_fill(canvas, (el_rect){10, 220, 11 + (int32_t)(20 + frame) % 100, 228}, el_glaze(GREEN, 200));
     el_canvas_line(canvas, 150, 120, 170, 120, el_solid(CYAN));
     el_canvas_line(canvas, 160, 110, 160, 130, el_solid(CYAN));
-    corners(canvas);
-    compass(canvas, frame);
+    /* What a band does not see need not be built for it. */
+    if (el_canvas_sees(canvas, (el_rect){117, 83, 203, 157})) {
+        corners(canvas);
+    }
+    if (el_canvas_sees(canvas, (el_rect){250, 170, 310, 230})) {
+        compass(canvas, frame);
+    }
 }

@@ -74,6 +74,12 @@ static inline bool el_rect_is_empty(el_rect rect)
 /* The canvas as far as it lies in `clip`; the one given is as it was. */
 el_canvas el_canvas_clipped(const el_canvas *canvas, el_rect clip);
 
+/* Whether anything of `rect` lies in the canvas: what does not need not be built for this band. */
+static inline bool el_canvas_sees(const el_canvas *canvas, el_rect rect)
+{
+    return !el_rect_is_empty(el_rect_shared(rect, canvas->clip));
+}
+
 void el_canvas_fill(const el_canvas *canvas, el_rect rect, el_paint paint);
 
 /* The outermost `thickness` pixels of `rect`; nothing if that is below 1. */

@@ -40,20 +40,25 @@ static void add_edge(el_polygon *polygon, const int32_t from[2], const int32_t t
     polygon->is_sorted = false;
 }
 
-static void take_point(el_polygon *polygon, int32_t x, int32_t y)
+static void take_point(el_polygon *polygon, const int32_t point[2])
 {
-    const int32_t point[2] = {x, y};
     for (unsigned i = 0; i < 2; i++) {
         if (point[i] < -EL_GUARD_SUB || point[i] > EL_GUARD_SUB) {
             polygon->status = polygon->status == EL_OK ? EL_ERROR_RANGE : polygon->status;
         }
-        polygon->last[i] = point[i];
         polygon->least[i] = el_min_i32(polygon->least[i], point[i]);
         polygon->most[i] = el_max_i32(polygon->most[i], point[i]);
     }
 }
 
-static void close_contour(el_polygon *polygon)
+void el_polygon_add_edge(el_polygon *polygon, const int32_t from[2], const int32_t to[2])
+{
+    take_point(polygon, from);
+    take_point(polygon, to);
+    add_edge(polygon, from, to);
+}
+
+void el_polygon_close(el_polygon *polygon)
 {
     if (polygon->is_open) {
         add_edge(polygon, polygon->last, polygon->first);
@@ -63,10 +68,10 @@ static void close_contour(el_polygon *polygon)
 
 void el_polygon_move(el_polygon *polygon, int32_t x, int32_t y)
 {
-    close_contour(polygon);
-    take_point(polygon, x, y);
-    polygon->first[0] = x;
-    polygon->first[1] = y;
+    el_polygon_close(polygon);
+    polygon->first[0] = polygon->last[0] = x;
+    polygon->first[1] = polygon->last[1] = y;
+    take_point(polygon, polygon->first);
     polygon->is_open = true;
 }
 
@@ -77,7 +82,9 @@ void el_polygon_line(el_polygon *polygon, int32_t x, int32_t y)
         return;
     }
     const int32_t from[2] = {polygon->last[0], polygon->last[1]};
-    take_point(polygon, x, y);
+    polygon->last[0] = x;
+    polygon->last[1] = y;
+    take_point(polygon, polygon->last);
     add_edge(polygon, from, polygon->last);
 }
 
@@ -106,7 +113,7 @@ el_status el_polygon_fill(el_polygon *polygon, const el_canvas *canvas, el_rule 
     if (smooth != EL_SHARP && (smooth < EL_SMOOTH_4 || smooth > EL_SMOOTH_16)) {
         return EL_ERROR_ARGUMENT;
     }
-    close_contour(polygon);
+    el_polygon_close(polygon);
     if (polygon->status != EL_OK) {
         return polygon->status;
     }

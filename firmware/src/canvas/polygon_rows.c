@@ -16,8 +16,11 @@
 
 #include <string.h>
 
+#include "base/fill.h"
 #include "base/fixed.h"
 #include "canvas/floor.h"
+
+_Static_assert(sizeof(el_polygon_edge) % sizeof(el_word) == 0, "steps, which lie behind edges, are read by pairs");
 
 enum { COLUMNS_LOG2 = 4 }; /* of a pixel, where it is smooth */
 
@@ -154,6 +157,23 @@ static void take_row(filling *f, int32_t y)
     }
 }
 
+/* The first of steps [at, end) that is not 0, or `end`: by pairs, since most are. */
+static int32_t next_step(const int16_t *steps, int32_t at, int32_t end)
+{
+    while (at < end && steps[at] == 0) {
+        at++;
+        if ((at & 1) == 0) {
+            const el_word *pair = (const el_word *)(const void *)(steps + at);
+            const el_word *const last = pair + (end - at) / 2;
+            while (pair < last && *pair == 0) {
+                pair++;
+            }
+            at = (int32_t)((const int16_t *)(const void *)pair - steps);
+        }
+    }
+    return at < end ? at : end;
+}
+
 /* Draws line y as it is covered, and clears its steps. */
 static void draw_line(filling *f, int32_t y)
 {
@@ -164,9 +184,7 @@ static void draw_line(filling *f, int32_t y)
         const int32_t begin = x;
         covered += f->steps[x - clip->x];
         f->steps[x - clip->x] = 0;
-        do {
-            x++;
-        } while (x < end && f->steps[x - clip->x] == 0);
+        x = next_step(f->steps, x + 1 - clip->x, end - clip->x) + clip->x;
         if (covered != 0) {
             el_canvas_run(f->canvas, y, begin, x, f->paint,
                           (uint32_t)covered << (8 - COLUMNS_LOG2 - f->rows_log2)); /* all of a pixel is 256 */

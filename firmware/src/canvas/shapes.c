@@ -2,6 +2,7 @@
 #include "canvas/shapes.h"
 
 #include "base/fixed.h"
+#include "canvas/polygon_rows.h"
 
 /* No polygon takes points that are further out: what is larger may be cut down to this without a change. */
 enum { FAR = 4 * EL_GUARD_SUB };
@@ -47,14 +48,34 @@ static void begin_contour(el_polygon *polygon, int32_t x, int32_t y, int32_t rx,
     el_polygon_move(polygon, x + scaled(rx, el_cos_q30(angle)), y + scaled(ry, el_sin_q30(angle)));
 }
 
+/* Four edges at a time, one in each quarter: a sine and a cosine serve four points. The filler takes edges in any order. */
 void el_polygon_ellipse(el_polygon *polygon, int32_t x, int32_t y, int32_t rx, int32_t ry)
 {
     const int32_t radii[2] = {within(rx, 0, FAR), within(ry, 0, FAR)};
     const int32_t centre[2] = {within(x, -FAR, FAR), within(y, -FAR, FAR)};
-    const uint32_t points = el_round_points(radii[0], radii[1]);
-    begin_contour(polygon, centre[0], centre[1], radii[0], radii[1], 0);
-    for (uint32_t i = 1; i < points; i++) {
-        add_point(polygon, centre[0], centre[1], radii[0], radii[1], (el_angle)(((uint64_t)i << 32) / points));
+    const uint32_t steps = el_round_points(radii[0], radii[1]) / 4U;
+    int32_t cosine = 1 << 30;
+    int32_t sine = 0;
+    el_polygon_close(polygon);
+    for (uint32_t i = 1; i <= steps; i++) {
+        /* The quarter's end exactly, where the next one begins. */
+        const el_angle angle = (el_angle)(((uint64_t)i << 30) / steps);
+        const int32_t next_cosine = i < steps ? el_cos_q30(angle) : 0;
+        const int32_t next_sine = i < steps ? el_sin_q30(angle) : 1 << 30;
+        for (unsigned quarter = 0; quarter < 4; quarter++) {
+            const int32_t ends[2][2] = {{cosine, sine}, {next_cosine, next_sine}};
+            int32_t points[2][2];
+            for (unsigned k = 0; k < 2; k++) {
+                const bool odd = (quarter & 1U) != 0; /* a quarter of a turn: (x, y) to (-y, x) */
+                const int32_t across = odd ? -ends[k][1] : ends[k][0];
+                const int32_t down = odd ? ends[k][0] : ends[k][1];
+                points[k][0] = centre[0] + scaled(radii[0], quarter < 2 ? across : -across);
+                points[k][1] = centre[1] + scaled(radii[1], quarter < 2 ? down : -down);
+            }
+            el_polygon_add_edge(polygon, points[0], points[1]);
+        }
+        cosine = next_cosine;
+        sine = next_sine;
     }
 }
 
