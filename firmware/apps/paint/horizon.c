@@ -163,8 +163,8 @@ static void tape(const el_canvas *canvas, int32_t x, int32_t value, int32_t step
     el_canvas_fill(&inner, reading, el_solid(BLACK));
     el_canvas_frame(&inner, reading, 1, el_solid(YELLOW));
     number(text, value);
-    const int16_t base = 120 + 8;
-    el_canvas_text(&inner, value > 999 ? &aileron_13 : &aileron_22, (int16_t)(x + 42), value > 999 ? base - 3 : base,
+    const bool is_long = value > 999;
+    el_canvas_text(&inner, is_long ? &aileron_13 : &aileron_22, (int16_t)(x + 42), (int16_t)(is_long ? 125 : 128),
                    EL_ALIGN_RIGHT, text, el_solid(WHITE));
 }
 
