@@ -3,6 +3,7 @@
 #define EL_SIM_COMMANDS_H
 
 int el_command_list(int argc, char **argv);
+int el_command_paint(int argc, char **argv);
 int el_command_render(int argc, char **argv);
 int el_command_look(int argc, char **argv);
 int el_command_memory(int argc, char **argv);

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/crc32.h"
 #include "report.h"
 
 uint8_t *el_file_read(const char *path, size_t *size)
@@ -116,4 +117,14 @@ void el_output_discard(el_output *output)
     unlink(output->temporary);
     free(output->temporary);
     output->temporary = NULL;
+}
+
+uint32_t el_pixels_crc(const uint16_t *values, size_t count)
+{
+    uint32_t crc = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t bytes[2] = {(uint8_t)values[i], (uint8_t)(values[i] >> 8)};
+        crc = el_crc32(crc, bytes, sizeof bytes);
+    }
+    return crc;
 }

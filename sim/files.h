@@ -23,6 +23,8 @@ typedef struct el_output {
 bool el_output_open(el_output *output, const char *path);
 /* Writes 16-bit values, little-endian whatever the host is. */
 void el_output_pixels(el_output *output, const uint16_t *values, size_t count);
+/* The CRC-32 of what that writes. */
+uint32_t el_pixels_crc(const uint16_t *values, size_t count);
 /* Moves the file to its place. False, after one line on stderr, when anything could not be written. */
 bool el_output_commit(el_output *output);
 /* Removes what was written. Does nothing to one that is not open. */

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "inputs.h"
+#include "paint/pages.h"
 #include "report.h"
 #include "scene.h"
 
@@ -14,8 +15,14 @@ int el_command_list(int argc, char **argv)
         }
         return EL_EXIT_OK;
     }
+    if (argc == 1 && strcmp(argv[0], "pages") == 0) {
+        for (size_t i = 0; i < el_page_count; i++) {
+            printf("%-12s %s\n", el_pages[i]->name, el_pages[i]->summary);
+        }
+        return EL_EXIT_OK;
+    }
     if (argc != 0) {
-        return el_report("list takes no arguments, or `views`");
+        return el_report("list takes no arguments, or `views` or `pages`");
     }
     for (size_t i = 0; i < el_scene_count(); i++) {
         printf("%-12s %s\n", el_scene_at(i)->name, el_scene_at(i)->summary);

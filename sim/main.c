@@ -12,7 +12,7 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *arguments;
 } commands[] = {
-    {"list", el_command_list, "[views]"},
+    {"list", el_command_list, "[views | pages]"},
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm [--mesh FILE.elm ...]] [--size WxH] [--band N] [--arena BYTES]\n"
      "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N] [--threads N]\n"
@@ -32,6 +32,9 @@ static const struct {
      "               --baud: as a UART of this rate, RATE / 10 bytes a second, until the host asks for another one; "
      "without,\n"
      "               as fast as the link goes. --max-baud: the highest that it may ask for, 3000000 unless it is said"},
+    {"paint", el_command_paint,
+     "[--page NAME] [--band N] [--frames N] [--png FILE] [--raw FILE] [--crc]\n"
+     "               a page in two dimensions, as `list pages` names them, some over a scene"},
     {"look", el_command_look, "--panel NAME [--rotation DEGREES] TRACE [--png FILE] [--raw FILE]"},
     {"memory", el_command_memory,
      "[--panel NAME] [--size WxH] [--band N] [--vertices N] [--triangles N] [--draws N]\n"

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "commands.h"
 #include "common_options.h"
 #include "files.h"
@@ -178,16 +177,6 @@ static void print_stats(uint32_t frame, const el_stats *stats, uint64_t wire_byt
     printf(", \"wire_bytes\": %" PRIu64 "}\n", wire_bytes);
 }
 
-static uint32_t crc_of(const uint16_t *values, size_t count)
-{
-    uint32_t crc = 0;
-    for (size_t i = 0; i < count; i++) {
-        const uint8_t bytes[2] = {(uint8_t)values[i], (uint8_t)(values[i] >> 8)};
-        crc = el_crc32(crc, bytes, sizeof bytes);
-    }
-    return crc;
-}
-
 typedef struct outputs {
     el_output png; /* not open where each frame has a file of its own */
     el_output raw, depth, wire;
@@ -239,7 +228,7 @@ static bool write_frame(const render_options *o, uint32_t frame, uint64_t sent_b
         el_output_pixels(&out->depth, machine->depth, (size_t)machine->config.width * machine->config.height);
     }
     if (o->crc) {
-        printf("%08x\n", crc_of(machine->picture, pixels));
+        printf("%08x\n", el_pixels_crc(machine->picture, pixels));
     }
     if (o->stats) {
         print_stats(frame, el_frame_stats(&machine->renderer), wire_bytes(machine) - sent_before);

@@ -64,7 +64,7 @@ static bool parse(int argc, char **argv, methods_options *o)
 static bool write_picture(FILE *stream)
 {
     static uint16_t pixels[EL_METHODS_PICTURE_WIDTH * EL_METHODS_PICTURE_HEIGHT];
-    el_canvas canvas = {EL_METHODS_PICTURE_WIDTH, EL_METHODS_PICTURE_HEIGHT, pixels};
+    el_sheet canvas = {EL_METHODS_PICTURE_WIDTH, EL_METHODS_PICTURE_HEIGHT, pixels};
     el_methods_picture(&canvas);
     return el_png_write(stream, pixels, canvas.width, canvas.height);
 }

@@ -46,39 +46,39 @@ static const el_spot diamond[] = {CENTRE(22, 6), CENTRE(25, 9), CENTRE(22, 13), 
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static void draw_line(el_canvas *canvas, int32_t x, int32_t y, el_spot a, el_spot b)
+static void draw_line(el_sheet *canvas, int32_t x, int32_t y, el_spot a, el_spot b)
 {
     enum { STEPS = ACROSS * PIXEL };
     for (int32_t i = 0; i <= STEPS; i++) {
         const int32_t along_x = a.x * (STEPS - i) + b.x * i;
         const int32_t along_y = a.y * (STEPS - i) + b.y * i;
-        el_canvas_fill(canvas, x + along_x * PIXEL / (STEPS * EL_SUBPIXELS),
-                       y + along_y * PIXEL / (STEPS * EL_SUBPIXELS), 1, 1, INK);
+        el_sheet_fill(canvas, x + along_x * PIXEL / (STEPS * EL_SUBPIXELS),
+                      y + along_y * PIXEL / (STEPS * EL_SUBPIXELS), 1, 1, INK);
     }
 }
 
-static void draw_pixels(el_canvas *canvas, int32_t x, int32_t y, const uint16_t *expected, const uint16_t *got)
+static void draw_pixels(el_sheet *canvas, int32_t x, int32_t y, const uint16_t *expected, const uint16_t *got)
 {
     for (int32_t i = 0; i < ACROSS * DOWN; i++) {
         uint16_t colour = expected[i] != 0 ? RIGHT : EMPTY;
         if (got[i] != expected[i]) {
             colour = got[i] < expected[i] ? MISSING : EXTRA;
         }
-        el_canvas_fill(canvas, x + i % ACROSS * PIXEL, y + i / ACROSS * PIXEL, PIXEL - 1, PIXEL - 1, colour);
+        el_sheet_fill(canvas, x + i % ACROSS * PIXEL, y + i / ACROSS * PIXEL, PIXEL - 1, PIXEL - 1, colour);
     }
 }
 
 /* The upper left corner of a cell's picture, with its two lines of text written above. */
-static el_spot begin_cell(el_canvas *canvas, int32_t top, unsigned index, const char *title, const char *rule)
+static el_spot begin_cell(el_sheet *canvas, int32_t top, unsigned index, const char *title, const char *rule)
 {
     const int32_t x = (int32_t)(index % COLUMNS) * CELL_WIDTH + INDENT;
     const int32_t y = top + (int32_t)(index / COLUMNS) * CELL_HEIGHT + INDENT;
-    el_canvas_write(canvas, x, y, 2, INK, title);
-    el_canvas_write(canvas, x, y + LINE, 2, GREY, rule);
+    el_sheet_write(canvas, x, y, 2, INK, title);
+    el_sheet_write(canvas, x, y + LINE, 2, GREY, rule);
     return (el_spot){x, y + 2 * LINE};
 }
 
-static void draw_triangle_cell(el_canvas *canvas, int32_t top, unsigned index)
+static void draw_triangle_cell(el_sheet *canvas, int32_t top, unsigned index)
 {
     const el_triangle_method *const method = &el_triangle_methods[index];
     uint16_t expected[ACROSS * DOWN] = {0};
@@ -102,7 +102,7 @@ static void draw_triangle_cell(el_canvas *canvas, int32_t top, unsigned index)
     }
 }
 
-static void draw_polygon_cell(el_canvas *canvas, int32_t top, unsigned index)
+static void draw_polygon_cell(el_sheet *canvas, int32_t top, unsigned index)
 {
     const el_polygon_method *const method = &el_polygon_methods[index];
     uint16_t expected[ACROSS * DOWN] = {0};
@@ -122,33 +122,33 @@ static void draw_polygon_cell(el_canvas *canvas, int32_t top, unsigned index)
     }
 }
 
-static int32_t draw_legend(el_canvas *canvas, int32_t x, int32_t y, uint16_t colour, const char *text)
+static int32_t draw_legend(el_sheet *canvas, int32_t x, int32_t y, uint16_t colour, const char *text)
 {
-    el_canvas_fill(canvas, x, y, 2 * PIXEL, 2 * PIXEL - 2, colour);
-    el_canvas_write(canvas, x + 3 * PIXEL, y, 2, INK, text);
+    el_sheet_fill(canvas, x, y, 2 * PIXEL, 2 * PIXEL - 2, colour);
+    el_sheet_write(canvas, x + 3 * PIXEL, y, 2, INK, text);
     int32_t letters = 0;
     for (; text[letters] != '\0'; letters++) {
     }
     return x + 5 * PIXEL + 8 * letters;
 }
 
-void el_methods_picture(el_canvas *canvas)
+void el_methods_picture(el_sheet *canvas)
 {
-    el_canvas_fill(canvas, 0, 0, canvas->width, canvas->height, PAPER);
+    el_sheet_fill(canvas, 0, 0, canvas->width, canvas->height, PAPER);
     int32_t y = INDENT;
     int32_t x = draw_legend(canvas, INDENT, y, RIGHT, "right");
     x = draw_legend(canvas, x, y, MISSING, "missing");
     draw_legend(canvas, x, y, EXTRA, "too much or twice");
     y += TITLE_HEIGHT - INDENT;
-    el_canvas_write(canvas, INDENT, y + INDENT, 2, INK,
-                    "Triangles: a closed fan, corners on pixel centres, against left and top edges");
+    el_sheet_write(canvas, INDENT, y + INDENT, 2, INK,
+                   "Triangles: a closed fan, corners on pixel centres, against left and top edges");
     y += TITLE_HEIGHT;
     for (unsigned i = 0; i < EL_TRIANGLE_METHODS; i++) {
         draw_triangle_cell(canvas, y, i);
     }
     y += (EL_TRIANGLE_METHODS + COLUMNS - 1) / COLUMNS * CELL_HEIGHT;
-    el_canvas_write(canvas, INDENT, y + INDENT, 2, INK,
-                    "Polygons: a crossing star, a hexagon with a hole, against the fill rule");
+    el_sheet_write(canvas, INDENT, y + INDENT, 2, INK,
+                   "Polygons: a crossing star, a hexagon with a hole, against the fill rule");
     y += TITLE_HEIGHT;
     for (unsigned i = 0; i < EL_POLYGON_METHODS; i++) {
         draw_polygon_cell(canvas, y, i);

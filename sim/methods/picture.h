@@ -8,6 +8,6 @@
 enum { EL_METHODS_PICTURE_WIDTH = 1000, EL_METHODS_PICTURE_HEIGHT = 1092 };
 
 /* Pre: the canvas has that size. */
-void el_methods_picture(el_canvas *canvas);
+void el_methods_picture(el_sheet *canvas);
 
 #endif

@@ -32,7 +32,7 @@ static uint16_t glyph_of(char c)
     }
 }
 
-void el_canvas_fill(el_canvas *canvas, int32_t x, int32_t y, int32_t width, int32_t height, uint16_t colour)
+void el_sheet_fill(el_sheet *canvas, int32_t x, int32_t y, int32_t width, int32_t height, uint16_t colour)
 {
     for (int32_t row = y < 0 ? 0 : y; row < y + height && row < canvas->height; row++) {
         for (int32_t column = x < 0 ? 0 : x; column < x + width && column < canvas->width; column++) {
@@ -41,13 +41,13 @@ void el_canvas_fill(el_canvas *canvas, int32_t x, int32_t y, int32_t width, int3
     }
 }
 
-void el_canvas_write(el_canvas *canvas, int32_t x, int32_t y, int32_t scale, uint16_t colour, const char *text)
+void el_sheet_write(el_sheet *canvas, int32_t x, int32_t y, int32_t scale, uint16_t colour, const char *text)
 {
     for (; *text != '\0'; text++, x += 4 * scale) {
         const uint16_t glyph = glyph_of(*text);
         for (int32_t bit = 0; bit < 15; bit++) {
             if ((glyph >> (14 - bit) & 1) != 0) {
-                el_canvas_fill(canvas, x + bit % 3 * scale, y + bit / 3 * scale, scale, scale, colour);
+                el_sheet_fill(canvas, x + bit % 3 * scale, y + bit / 3 * scale, scale, scale, colour);
             }
         }
     }

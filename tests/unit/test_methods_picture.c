@@ -15,9 +15,9 @@ static void test_letters(void)
 {
     hits_picture picture;
     const el_hits hits = hits_clear(&picture);
-    el_canvas canvas = {HITS_ACROSS, HITS_DOWN, hits.counts};
-    el_canvas_write(&canvas, 0, 0, 1, 1, "eL4");
-    el_canvas_write(&canvas, 4, 5, 1, 2, "?-:");
+    el_sheet canvas = {HITS_ACROSS, HITS_DOWN, hits.counts};
+    el_sheet_write(&canvas, 0, 0, 1, 1, "eL4");
+    el_sheet_write(&canvas, 4, 5, 1, 2, "?-:");
     EXPECT_HITS(&picture, "text", "111.1...1.1.", "1...1...1.1.", "11..1...111.", "1...1.....1.", "111.111...1.",
                 "............", "............", "........222.");
 }
@@ -27,9 +27,9 @@ static void test_letters_are_clipped(void)
 {
     hits_picture picture;
     const el_hits hits = hits_clear(&picture);
-    el_canvas canvas = {HITS_ACROSS, HITS_DOWN, hits.counts};
-    el_canvas_write(&canvas, -3, -3, 2, 1, "L");
-    el_canvas_write(&canvas, 9, 5, 2, 2, "L");
+    el_sheet canvas = {HITS_ACROSS, HITS_DOWN, hits.counts};
+    el_sheet_write(&canvas, -3, -3, 2, 1, "L");
+    el_sheet_write(&canvas, 9, 5, 2, 2, "L");
     EXPECT_HITS(&picture, "text", "............", "............", "............", "............", "............",
                 "111......22.", "111......22.", ".........22.", ".........22.", ".........22.");
 }
@@ -41,8 +41,8 @@ static void test_letters_differ(void)
     static uint16_t glyphs[sizeof letters][4 * 5];
     for (size_t i = 0; i + 1 < sizeof letters; i++) {
         const char text[] = {letters[i], '\0'};
-        el_canvas canvas = {4, 5, glyphs[i]};
-        el_canvas_write(&canvas, 0, 0, 1, 1, text);
+        el_sheet canvas = {4, 5, glyphs[i]};
+        el_sheet_write(&canvas, 0, 0, 1, 1, text);
         for (size_t k = 0; k < i; k++) {
             TEST_ASSERT_TRUE_MESSAGE(memcmp(glyphs[i], glyphs[k], sizeof glyphs[i]) != 0, text);
         }

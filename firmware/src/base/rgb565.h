@@ -14,6 +14,19 @@ static inline uint16_t el_rgb565(uint8_t red, uint8_t green, uint8_t blue)
     return (uint16_t)(((red >> 3) << 11) | ((green >> 2) << 5) | (blue >> 3));
 }
 
+/* `over` over `under`, of which it hides alpha / 256, 0..256: each channel is rounded to nearest, ties up, so that 0 leaves
+ * `under` as it is and 256 is `over`. The sums of red and blue lie 16 bits apart, below 31 * 256 + 128 each. */
+static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t alpha)
+{
+    const uint32_t under_rb = (under & 0xF800U) << 5 | (under & 0x1FU);
+    const uint32_t over_rb = (over & 0xF800U) << 5 | (over & 0x1FU);
+    const uint32_t under_g = under & 0x07E0U;
+    const uint32_t over_g = over & 0x07E0U;
+    const uint32_t rb = (under_rb * (256U - alpha) + over_rb * alpha + 0x00800080U) >> 8;
+    const uint32_t g = (under_g * (256U - alpha) + over_g * alpha + 0x1000U) >> 8; /* half of a unit is 2^5 * 128 */
+    return (uint16_t)((rb >> 5 & 0xF800U) | (g & 0x07E0U) | (rb & 0x1FU));
+}
+
 #ifdef __cplusplus
 }
 #endif

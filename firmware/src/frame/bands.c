@@ -105,6 +105,13 @@ void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
 }
 #endif
 
+static inline void draw_layer(const el_layer *layer, el_band *band)
+{
+    if (layer != NULL) {
+        layer->draw(layer->context, band);
+    }
+}
+
 /* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
 static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
 {
@@ -119,9 +126,16 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
         el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
+        draw_layer(config->under, buffer);
         painter->band_is_open = 1;
     }
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
+}
+
+OF_WORKERS_TOO void el_painter_finish(el_painter *painter, const el_renderer *renderer)
+{
+    el_debug_finish_band(renderer, painter);
+    draw_layer(renderer->config.over, &painter->bands[painter->current]);
 }
 
 OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, el_band *band)
@@ -520,7 +534,7 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
         }
         el_painter_draw(painter, renderer, band, band + 1 < renderer->pass_end);
         if (hand_over_bands) {
-            el_debug_finish_band(renderer, painter);
+            el_painter_finish(painter, renderer);
             el_bands_hand_over(renderer, buffer);
             painter->current ^= 1U;
             painter->band_is_open = 0;

@@ -29,6 +29,9 @@ void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, 
  * on what reaches beyond, where `goes_on`. */
 void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on);
 
+/* All triangles of the painter's current band are drawn: what comes over them. */
+void el_painter_finish(el_painter *painter, const el_renderer *renderer);
+
 /* Gives a complete band to the sinks. */
 void el_bands_hand_over(el_renderer *renderer, el_band *band);
 

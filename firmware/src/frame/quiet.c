@@ -107,11 +107,25 @@ static uint8_t ask(const el_renderer *renderer, uint8_t takers, int32_t y, int32
     return takers;
 }
 
+/* Whether the layers draw into lines [y, y + lines) what they drew in the frame before. */
+static bool layers_repeat(const el_config *config, int32_t y, int32_t lines)
+{
+    const el_layer *const layers[2] = {config->under, config->over};
+    for (unsigned i = 0; i < 2; i++) {
+        if (layers[i] != NULL &&
+            (layers[i]->unchanged == NULL || !layers[i]->unchanged(layers[i]->context, (uint16_t)y, (uint16_t)lines))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool el_quiet_is_unchanged(el_renderer *renderer)
 {
     el_quiet *const quiet = &renderer->quiet;
     quiet->looks = 0;
-    if ((quiet->known & EL_REUSE_FRAME) == 0 || quiet->submitted != quiet->was_submitted) {
+    if ((quiet->known & EL_REUSE_FRAME) == 0 || quiet->submitted != quiet->was_submitted ||
+        !layers_repeat(&renderer->config, 0, renderer->config.height)) {
         return false;
     }
     quiet->takers = ask(renderer, quiet->takers, 0, renderer->config.height);
@@ -140,6 +154,9 @@ bool el_quiet_leaves_out(el_renderer *renderer, uint16_t band, bool is_empty)
     }
     const int32_t y = band * config->band_lines;
     const int32_t lines = el_min_i32(config->band_lines, config->height - y);
+    if (!layers_repeat(config, y, lines)) {
+        return false;
+    }
     quiet->band_takers = ask(renderer, quiet->takers, y, lines);
     if (quiet->band_takers != 0) {
         return false;

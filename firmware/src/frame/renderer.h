@@ -17,6 +17,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/layer.h"
 #include "base/sink.h"
 #include "base/stats.h"
 #include "base/status.h"
@@ -114,6 +115,9 @@ typedef struct el_config {
     void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
     size_t memory_bytes; /* at least EL_MIN_MEMORY_BYTES */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
+    /* Drawn into each band before its triangles and after them (after a debug view, too). NULL: none. What is exchanged
+     * for another one between frames needs el_frame_forget with `reuse`. */
+    const el_layer *under, *over;
     const el_workers *workers; /* NULL: the caller's core draws alone. Else memory_bytes is EL_WORKERS_BYTES more */
 } el_config;
 

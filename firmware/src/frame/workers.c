@@ -12,7 +12,6 @@
 
 #include "base/fixed.h"
 #include "frame/bands.h"
-#include "frame/debug_hooks.h"
 #include "frame/quiet.h"
 
 #if EL_WITH_WORKERS
@@ -36,7 +35,7 @@ static bool can_draw(const el_painter *painter)
 static void draw_band(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
     el_painter_draw(painter, renderer, band, goes_on);
-    el_debug_finish_band(renderer, painter);
+    el_painter_finish(painter, renderer);
     painter->current ^= 1U;
     painter->band_is_open = 0;
     store(&painter->drawn, (uint16_t)(painter->drawn + 1U));

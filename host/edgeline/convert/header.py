@@ -42,11 +42,11 @@ def check_name(name: str) -> str:
     return name
 
 
-def name_from(stem: str) -> str:
+def name_from(stem: str, kind: str = "mesh") -> str:
     """A C identifier out of a file's name: `spot-mesh.2` becomes `spot_mesh_2`, `3d` becomes `mesh_3d`."""
     name = re.sub(r"[^A-Za-z0-9]+", "_", stem).strip("_").lower()
     if not name or not name[0].isalpha() or RESERVED.fullmatch(name):
-        name = f"mesh_{name}".rstrip("_")
+        name = f"{kind}_{name}".rstrip("_")
     return name
 
 

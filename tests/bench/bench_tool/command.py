@@ -12,6 +12,7 @@ from typing import Any
 
 from . import (
     against,
+    canvas,
     codec,
     compare,
     frames,
@@ -62,6 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     what.add_argument("--still", action="store_true", help="print what it saves to leave out what has not changed")
     what.add_argument("--helpers", action="store_true", help="print what quaternions, animations, picking ... cost")
+    what.add_argument("--canvas", action="store_true", help="print what drawing in two dimensions costs")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
@@ -108,6 +110,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
         _record_scenes(machines, verdicts)
     if options.against is not None:
         print(against.table(*against.measure(machines, options.against, verdicts)))
+    if options.canvas:
+        print(canvas.table(canvas.measure(machines, verdicts)))
     if options.still:
         print(still.table(still.measure(machines, verdicts)))
     if options.helpers:
