@@ -16,7 +16,7 @@ static EL_SPECIALISED uint32_t coloured(const el_values *v, uint32_t threshold_q
                el_dither(el_fraction_q16(v->green), 63, threshold_q16) << 5 |
                el_dither(el_fraction_q16(v->blue), 31, threshold_q16);
     }
-    return ((v->red >> 27 << 6 | v->green >> 26) << 5) | v->blue >> 27;
+    return el_coloured(v);
 }
 
 static EL_SPECIALISED int32_t fill_plain(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
