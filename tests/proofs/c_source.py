@@ -67,7 +67,8 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
     "raster/fill.c": [
-        *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/depth_row.c"),
+        *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),
+        "raster/depth_row.c",
         *("raster/texture_walk.c", "base/reciprocals.c"),
         *DIVISION,
     ],

@@ -117,7 +117,7 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     return fill_count(triangle, target, stats, asked);
 }
 
-static EL_APART void draw_any(el_triangle *triangle, const el_target *target, el_stats *stats)
+static EL_APART void fill_bands_rows(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
     int32_t rows;
     do {
@@ -141,6 +141,6 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
 #endif
     }
 #endif
-    draw_any(triangle, target, stats);
+    fill_bands_rows(triangle, target, stats);
 }
 #endif

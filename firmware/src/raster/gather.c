@@ -29,7 +29,7 @@ static inline uint32_t by_127(uint32_t n)
 
 /* ambient + diffuse * max(0, normal . light), 0..255 in 8.8, of that scalar product: 127 * 2^14 for a unit normal along the
  * light; at most 3 * 2^7 * 2^14. */
-static inline uint32_t light_q8(int32_t dot, uint32_t ambient, uint32_t diffuse)
+static inline uint32_t light_of_dot_q8(int32_t dot, uint32_t ambient, uint32_t diffuse)
 {
     uint32_t value = ambient << 8;
     if (dot > 0) {
@@ -39,16 +39,16 @@ static inline uint32_t light_q8(int32_t dot, uint32_t ambient, uint32_t diffuse)
     return value > 0xFF00U ? 0xFF00U : value;
 }
 
-/* colour * light / 255, 8.8. Without a long product: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
- * (q + r) <= 65280. */
+/* colour * light / 255, 8.8. Thumb-2 divides by a long product. Others without: with n = 256 q + r = 255 q + (q + r), n / 255
+ * is q + (q + r) / 255, and (q + r) <= 65280. */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
     const uint32_t n = colour * light + 127U;
-#if defined(EL_PRODUCTS_IN_HALVES)
+#if EL_SMALL_CODE || defined(__thumb2__)
+    return (uint16_t)(n / 255U);
+#else
     const uint32_t rest = (n >> 8) + (n & 255U);
     return (uint16_t)((n >> 8) + ((rest + 1U + (rest >> 8)) >> 8));
-#else
-    return (uint16_t)(n / 255U);
 #endif
 }
 
@@ -60,15 +60,14 @@ static inline void take_colour(const uint8_t colour[3], uint16_t rgb_q8[3])
     rgb_q8[2] = (uint16_t)(colour[2] << 8);
 }
 
-static uint32_t light_of_vertex(const el_draw_state *draw, uint16_t vertex, bool turned)
+static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool turned)
 {
     const el_light *const light = draw->material->light;
-    const int8_t *const normal = draw->mesh->normals[vertex];
     int32_t dot = 0;
     for (unsigned i = 0; i < 3; i++) {
         dot += normal[i] * draw->light_q14[i];
     }
-    return light_q8(turned ? -dot : dot, light->ambient, light->diffuse);
+    return light_of_dot_q8(turned ? -dot : dot, light->ambient, light->diffuse);
 }
 
 /* Three channels of 8.8 for one of the mesh's vertices. */
@@ -78,7 +77,7 @@ static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t v
         take_colour(colour, rgb_q8);
         return;
     }
-    const uint32_t light = el_is_lit(draw->material) ? light_of_vertex(draw, vertex, turned) : 0xFF00U;
+    const uint32_t light = el_is_lit(draw->material) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
     for (unsigned i = 0; i < 3; i++) {
         rgb_q8[i] = lit_q8(colour[i], light);
     }
@@ -236,7 +235,8 @@ static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, e
     for (unsigned i = 0; i < 3; i++) {
         const uint8_t *const colour = el_base_colour(draw, vertices[i]);
         const int8_t *const normal = mesh->normals[vertices[i]];
-        const uint32_t value = light_q8(normal[0] * x_q14 + normal[1] * y_q14 + normal[2] * z_q14, ambient, diffuse);
+        const uint32_t value =
+            light_of_dot_q8(normal[0] * x_q14 + normal[1] * y_q14 + normal[2] * z_q14, ambient, diffuse);
         uint16_t *const rgb_q8 = corners[i].rgb_q8;
         rgb_q8[0] = lit_q8(colour[0], value);
         rgb_q8[1] = lit_q8(colour[1], value);

@@ -32,7 +32,7 @@ typedef struct walker {
     uint32_t pixels;
 } walker;
 
-static EL_SPECIALISED span *walk(walker *w, int32_t left_step, int32_t right_step, span *at, const span *end)
+static EL_SPECIALISED span *walk_part(walker *w, int32_t left_step, int32_t right_step, span *at, const span *end)
 {
     while (at != end) {
         /* Both are rounded up alike: the right one is never left of the left one. */
@@ -61,7 +61,7 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
     walker w = {.left = (uint32_t)left.x, .right = (uint32_t)right.x, .column = 0, .pixels = 0};
     span *at = spans;
     if (triangle->y_middle < y_stop) {
-        at = walk(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
+        at = walk_part(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
         const el_edge_q20 lower = el_edge_narrowed(&triangle->lower);
         if (triangle->short_is_left) {
             w.left = (uint32_t)lower.x;
@@ -72,7 +72,7 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
         }
         triangle->y_middle = INT16_MAX;
     }
-    (void)walk(&w, left.step, right.step, at, spans + (y_stop - y));
+    (void)walk_part(&w, left.step, right.step, at, spans + (y_stop - y));
     el_count(&stats->pixels, w.pixels);
     if (goes_on) {
         el_edge_widen(&triangle->left, (el_edge_q20){.x = (int32_t)w.left, .step = left.step});
