@@ -474,7 +474,7 @@ def test_the_compiler_agrees(name: str) -> None:
         ("side", SPANS, "x + upper, rows - upper)", "x, rows - upper)"),
         ("side", "raster/edge.h", "edge->x_q32 += edge->step_q32", "edge->x_q32 += edge->step_q32 + 1"),
         ("modulate", "raster/texel.h", "(light >> 24) + 1U", "(light >> 24) + 10U"),
-        ("coloured", FILL, "v->red >> 27 << 6", "v->red >> 27 << 5"),
+        ("coloured", FILL_H, "values->red >> 27 << 6", "values->red >> 27 << 5"),
         ("coloured, dithered", "base/dither.h", "+ threshold_q16) >> 16", "+ threshold_q16 + 2079U) >> 16"),
         ("texel", "raster/texel.h", "((1U << texture->height_log2) - 1U)", "(1U << texture->height_log2)"),
         ("texel", "raster/texel.h", "(1U << texture->width_log2) - 1U", "1U << texture->width_log2"),

@@ -16,7 +16,7 @@ static EL_SPECIALISED uint32_t coloured(const el_values *v, uint32_t threshold_q
                el_dither(el_fraction_q16(v->green), 63, threshold_q16) << 5 |
                el_dither(el_fraction_q16(v->blue), 31, threshold_q16);
     }
-    return ((v->red >> 27 << 6 | v->green >> 26) << 5) | v->blue >> 27;
+    return el_coloured(v);
 }
 
 static EL_SPECIALISED int32_t fill_plain(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
@@ -117,7 +117,7 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     return fill_count(triangle, target, stats, asked);
 }
 
-static EL_APART void draw_any(el_triangle *triangle, const el_target *target, el_stats *stats)
+static EL_APART void fill_bands_rows(el_triangle *triangle, const el_target *target, el_stats *stats)
 {
     int32_t rows;
     do {
@@ -141,6 +141,6 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
 #endif
     }
 #endif
-    draw_any(triangle, target, stats);
+    fill_bands_rows(triangle, target, stats);
 }
 #endif

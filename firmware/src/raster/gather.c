@@ -27,59 +27,32 @@ static inline uint32_t by_127(uint32_t n)
 #endif
 }
 
-/* A draw's light, as it falls on the front of what is drawn, or on the back. */
-typedef struct lamp {
-    int32_t x, y, z; /* Q14 */
-    uint32_t ambient_q8, diffuse;
-} lamp;
-
-static inline lamp lamp_of(const el_draw_state *draw, bool turned)
+/* ambient + diffuse * max(0, normal . light), 0..255 in 8.8, of that scalar product: 127 * 2^14 for a unit normal along the
+ * light; at most 3 * 2^7 * 2^14. */
+static inline uint32_t light_of_dot_q8(int32_t dot, uint32_t ambient, uint32_t diffuse)
 {
-    const el_light *const light = draw->material->light;
-    const int32_t side = turned ? -1 : 1;
-    return (lamp){
-        .x = draw->light_q14[0] * side,
-        .y = draw->light_q14[1] * side,
-        .z = draw->light_q14[2] * side,
-        .ambient_q8 = (uint32_t)light->ambient << 8,
-        .diffuse = light->diffuse,
-    };
-}
-
-/* ambient + diffuse * max(0, normal . light), 0..255 in 8.8. */
-static inline uint32_t light_q8(const lamp *l, const int8_t normal[3])
-{
-    /* 127 * 2^14 for a unit normal along the light; at most 3 * 2^7 * 2^14 */
-    const int32_t dot = normal[0] * l->x + normal[1] * l->y + normal[2] * l->z;
-    uint32_t value = l->ambient_q8;
+    uint32_t value = ambient << 8;
     if (dot > 0) {
         /* diffuse * 256 * dot / (127 * 2^14), in two steps that stay below 2^31: 255 * 98304 at most */
-        value += by_127(l->diffuse * ((uint32_t)dot >> 6));
+        value += by_127(diffuse * ((uint32_t)dot >> 6));
     }
     return value > 0xFF00U ? 0xFF00U : value;
 }
 
-/* colour * light / 255, 8.8. Without a long product: with n = 256 q + r = 255 q + (q + r), n / 255 is q + (q + r) / 255, and
- * (q + r) <= 65280. */
+/* colour * light / 255, 8.8. Thumb-2 divides by a long product. Others without: with n = 256 q + r = 255 q + (q + r), n / 255
+ * is q + (q + r) / 255, and (q + r) <= 65280. */
 static uint16_t lit_q8(uint32_t colour, uint32_t light)
 {
     const uint32_t n = colour * light + 127U;
-#if defined(EL_PRODUCTS_IN_HALVES)
+#if EL_SMALL_CODE || defined(__thumb2__)
+    return (uint16_t)(n / 255U);
+#else
     const uint32_t rest = (n >> 8) + (n & 255U);
     return (uint16_t)((n >> 8) + ((rest + 1U + (rest >> 8)) >> 8));
-#else
-    return (uint16_t)(n / 255U);
 #endif
 }
 
-static inline void light_up(const uint8_t colour[3], uint32_t light, uint16_t rgb_q8[3])
-{
-    rgb_q8[0] = lit_q8(colour[0], light);
-    rgb_q8[1] = lit_q8(colour[1], light);
-    rgb_q8[2] = lit_q8(colour[2], light);
-}
-
-/* What light_up makes of a light of 255: n / 255 = 256 colour for n = 255 * 256 colour + 127. */
+/* What lit_q8 makes of a light of 255: n / 255 = 256 colour for n = 255 * 256 colour + 127. */
 static inline void take_colour(const uint8_t colour[3], uint16_t rgb_q8[3])
 {
     rgb_q8[0] = (uint16_t)(colour[0] << 8);
@@ -87,15 +60,27 @@ static inline void take_colour(const uint8_t colour[3], uint16_t rgb_q8[3])
     rgb_q8[2] = (uint16_t)(colour[2] << 8);
 }
 
+static uint32_t light_q8(const el_draw_state *draw, const int8_t normal[3], bool turned)
+{
+    const el_light *const light = draw->material->light;
+    int32_t dot = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        dot += normal[i] * draw->light_q14[i];
+    }
+    return light_of_dot_q8(turned ? -dot : dot, light->ambient, light->diffuse);
+}
+
 /* Three channels of 8.8 for one of the mesh's vertices. */
 static void shade(const el_draw_state *draw, const uint8_t colour[3], uint16_t vertex, bool turned, uint16_t rgb_q8[3])
 {
-    if (!el_is_lit(draw->material)) {
+    if (!EL_SMALL_CODE && !el_is_lit(draw->material)) {
         take_colour(colour, rgb_q8);
         return;
     }
-    const lamp l = lamp_of(draw, turned);
-    light_up(colour, light_q8(&l, draw->mesh->normals[vertex]), rgb_q8);
+    const uint32_t light = el_is_lit(draw->material) ? light_q8(draw, draw->mesh->normals[vertex], turned) : 0xFF00U;
+    for (unsigned i = 0; i < 3; i++) {
+        rgb_q8[i] = lit_q8(colour[i], light);
+    }
 }
 
 void el_shade_vertex(const el_draw_state *draw, uint16_t vertex, bool turned, uint16_t rgb_q8[3])
@@ -242,7 +227,7 @@ static EL_APART void gather_attributes(const el_draw_state *draw, const el_recor
 }
 
 #if !EL_SMALL_CODE
-/* Colours alone, of the mesh's vertices. */
+/* Colours alone, of the mesh's vertices: with the light at hand for all three. */
 static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, el_corner corners[3])
 {
     const el_mesh *const mesh = draw->mesh;
@@ -253,10 +238,22 @@ static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, e
         }
         return;
     }
-    const lamp l = lamp_of(draw, is_turned(draw, corners));
+    const el_light *const light = draw->material->light;
+    const uint32_t ambient = light->ambient;
+    const uint32_t diffuse = light->diffuse;
+    const int32_t side = is_turned(draw, corners) ? -1 : 1;
+    const int32_t x_q14 = draw->light_q14[0] * side;
+    const int32_t y_q14 = draw->light_q14[1] * side;
+    const int32_t z_q14 = draw->light_q14[2] * side;
     for (unsigned i = 0; i < 3; i++) {
-        const uint16_t vertex = vertices[i];
-        light_up(el_base_colour(draw, vertex), light_q8(&l, mesh->normals[vertex]), corners[i].rgb_q8);
+        const uint8_t *const colour = el_base_colour(draw, vertices[i]);
+        const int8_t *const normal = mesh->normals[vertices[i]];
+        const uint32_t value =
+            light_of_dot_q8(normal[0] * x_q14 + normal[1] * y_q14 + normal[2] * z_q14, ambient, diffuse);
+        uint16_t *const rgb_q8 = corners[i].rgb_q8;
+        rgb_q8[0] = lit_q8(colour[0], value);
+        rgb_q8[1] = lit_q8(colour[1], value);
+        rgb_q8[2] = lit_q8(colour[2], value);
     }
 }
 #endif

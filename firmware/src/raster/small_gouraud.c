@@ -5,7 +5,7 @@
 
 #if EL_WITH_SMALL_GOURAUD
 
-/* Armv6-M computes with eight registers, and can add from the others. */
+/* Armv6-M computes with eight registers, and can add from the others: where what is only added belongs. */
 #if defined(__ARM_ARCH_6M__) && !EL_SMALL_CODE
 #define LAY_ASIDE(value) __asm__("" : "+h"(value))
 #else
@@ -25,25 +25,26 @@ typedef struct span {
     uint32_t columns, pixels;
 } span;
 
-/* Both sides, and the column where the row above ended less BACK. */
+/* Both sides, modulo 2^32: a step beyond the last row may be a long one. And the column where the row above ended less BACK. */
 typedef struct walker {
-    int32_t left, right, column;
+    uint32_t left, right;
+    int32_t column;
     uint32_t pixels;
 } walker;
 
-static EL_SPECIALISED span *walk(walker *w, int32_t left_step, int32_t right_step, span *at, const span *end)
+static EL_SPECIALISED span *walk_part(walker *w, int32_t left_step, int32_t right_step, span *at, const span *end)
 {
     while (at != end) {
         /* Both are rounded up alike: the right one is never left of the left one. */
-        const int32_t x = w->left >> 20;
-        const int32_t x_end = w->right >> 20;
+        const int32_t x = (int32_t)w->left >> 20;
+        const int32_t x_end = (int32_t)w->right >> 20;
         const uint32_t pixels = (uint32_t)(x_end - x);
         at->columns = (uint32_t)(x - w->column);
         at->pixels = pixels;
         w->pixels += pixels;
         w->column = x_end - BACK;
-        w->left += left_step;
-        w->right += right_step;
+        w->left += (uint32_t)left_step;
+        w->right += (uint32_t)right_step;
         at++;
         EL_SETTLE(at);
     }
@@ -57,30 +58,30 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
     const int32_t y = triangle->y;
     el_edge_q20 left = el_edge_narrowed(&triangle->left);
     el_edge_q20 right = el_edge_narrowed(&triangle->right);
-    walker w = {.left = left.x, .right = right.x, .column = 0, .pixels = 0};
+    walker w = {.left = (uint32_t)left.x, .right = (uint32_t)right.x, .column = 0, .pixels = 0};
     span *at = spans;
     if (triangle->y_middle < y_stop) {
-        at = walk(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
+        at = walk_part(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
         const el_edge_q20 lower = el_edge_narrowed(&triangle->lower);
         if (triangle->short_is_left) {
-            w.left = lower.x;
+            w.left = (uint32_t)lower.x;
             left.step = lower.step;
         } else {
-            w.right = lower.x;
+            w.right = (uint32_t)lower.x;
             right.step = lower.step;
         }
         triangle->y_middle = INT16_MAX;
     }
-    (void)walk(&w, left.step, right.step, at, spans + (y_stop - y));
+    (void)walk_part(&w, left.step, right.step, at, spans + (y_stop - y));
     el_count(&stats->pixels, w.pixels);
     if (goes_on) {
-        el_edge_widen(&triangle->left, (el_edge_q20){.x = w.left, .step = left.step});
-        el_edge_widen(&triangle->right, (el_edge_q20){.x = w.right, .step = right.step});
+        el_edge_widen(&triangle->left, (el_edge_q20){.x = (int32_t)w.left, .step = left.step});
+        el_edge_widen(&triangle->right, (el_edge_q20){.x = (int32_t)w.right, .step = right.step});
     }
     return w.column;
 }
 
-/* `columns` to the right; 0 <= columns < 2^16. `z_low`: the lower half of a column's z, settled, so that its product is added in
+/* `columns` to the right, 0 to the widest screen's. `z_low`: the lower half of a column's z, settled, so that its product is added in
  * the instruction that makes it where there is one. */
 static EL_SPECIALISED void move_right(el_values *v, const el_values *per_column, uint32_t z_low, uint32_t columns)
 {
@@ -132,16 +133,13 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
     EL_SETTLE(z_low);
     s.per_column.z = s.per_column.z >> 32 << 32 | z_low;
     uint32_t empty = 0;
-    do {
+    for (;;) {
         const span row = *next++;
         move_right(&v, &s.per_column, z_low, row.columns);
         at += row.columns;
         uint16_t *pixel = at;
         at += row.pixels;
         if (pixel != at) {
-            LAY_ASIDE(s.per_column.red);
-            LAY_ASIDE(s.per_column.green);
-            LAY_ASIDE(s.per_column.blue);
             do {
                 const uint32_t depth = (uint32_t)(v.z >> 32);
                 if (depth < *pixel) {
@@ -149,6 +147,9 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
                     *pixel = (uint16_t)depth;
                     *el_colour_at(&cursor, pixel) = (uint16_t)el_coloured(&v);
                 }
+                LAY_ASIDE(s.per_column.red);
+                LAY_ASIDE(s.per_column.green);
+                LAY_ASIDE(s.per_column.blue);
                 el_values_add(&v, &s.per_column, KIND);
                 EL_ADD_UP(v.red);
                 EL_ADD_UP(v.green);
@@ -158,12 +159,16 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
         } else {
             empty++;
         }
+        if (next == end_of_rows) {
+            break;
+        }
         el_values_add(&v, &per_row, KIND);
         at += row_step;
-    } while (next != end_of_rows);
+    }
     el_count(&stats->rows, (uint32_t)(y_stop - y));
     el_count(&stats->spans, (uint32_t)(y_stop - y) - empty);
     if (goes_on) {
+        el_values_add(&v, &per_row, KIND);
         triangle->z.value = v.z - EL_HALF_Q32 - el_multiply_u64(s.per_column.z, column);
         triangle->rgb[0].value = v.red - s.per_column.red * (uint32_t)column;
         triangle->rgb[1].value = v.green - s.per_column.green * (uint32_t)column;
