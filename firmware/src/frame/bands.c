@@ -105,10 +105,10 @@ void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
 }
 #endif
 
-static inline void draw_layer(const el_layer *layer, el_band *band)
+static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *layer)
 {
     if (layer != NULL) {
-        layer->draw(layer->context, band);
+        layer->draw(layer->context, &painter->bands[painter->current]);
     }
 }
 
@@ -126,7 +126,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
         el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
-        draw_layer(config->under, buffer);
+        draw_layer(painter, config->under);
         painter->band_is_open = 1;
     }
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
@@ -135,7 +135,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
 OF_WORKERS_TOO void el_painter_finish(el_painter *painter, const el_renderer *renderer)
 {
     el_debug_finish_band(renderer, painter);
-    draw_layer(renderer->config.over, &painter->bands[painter->current]);
+    draw_layer(painter, renderer->config.over);
 }
 
 OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, el_band *band)

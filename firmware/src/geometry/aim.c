@@ -34,15 +34,14 @@ el_status el_billboard_about(el_pose *pose, const el_camera *camera, const int32
     int32_t towards_q30[3];
     int32_t columns_q30[3][3];
     int64_t product[3];
-    if (!el_vector_normalise((const int64_t[3]){axis[0], axis[1], axis[2]}, 3, columns_q30[1]) ||
-        !el_vector_normalise(towards, 3, towards_q30)) {
+    if (el_vector_normalise((const int64_t[3]){axis[0], axis[1], axis[2]}, 3, columns_q30[1]) == 0 ||
+        el_vector_normalise(towards, 3, towards_q30) == 0) {
         return EL_ERROR_RANGE;
     }
     el_vector_cross(columns_q30[1], towards_q30, product);
-    if (!el_vector_is_direction(product)) {
+    if (el_vector_normalise(product, 3, columns_q30[0]) < EL_DIRECTION_BITS) {
         return EL_ERROR_RANGE;
     }
-    (void)el_vector_normalise(product, 3, columns_q30[0]);
     el_vector_cross(columns_q30[0], columns_q30[1], product);
     (void)el_vector_normalise(product, 3, columns_q30[2]);
     for (unsigned i = 0; i < 3; i++) {

@@ -57,11 +57,11 @@ el_status el_camera_look_at(el_camera *camera, const int32_t eye_q16[3], const i
     int32_t up_q30[3];
     int32_t back_q30[3];
     int64_t product[3];
-    if (!el_vector_normalise(towards_eye, 3, back_q30) || !el_vector_normalise(up, 3, up_q30)) {
+    if (el_vector_normalise(towards_eye, 3, back_q30) == 0 || el_vector_normalise(up, 3, up_q30) == 0) {
         return EL_ERROR_CAMERA;
     }
     el_vector_cross(up_q30, back_q30, product);
-    if (!el_vector_is_direction(product) || !el_vector_normalise(product, 3, right_q30)) {
+    if (el_vector_normalise(product, 3, right_q30) < EL_DIRECTION_BITS) {
         return EL_ERROR_CAMERA;
     }
     el_vector_cross(back_q30, right_q30, product);

@@ -28,7 +28,7 @@ static el_quaternion polish(el_quaternion q)
 static el_quaternion of_length_1(const int64_t numbers[4], const el_quaternion *otherwise)
 {
     el_quaternion q;
-    return el_vector_normalise(numbers, 4, q.q30) ? polish(q) : *otherwise;
+    return el_vector_normalise(numbers, 4, q.q30) != 0 ? polish(q) : *otherwise;
 }
 
 el_quaternion el_quaternion_normalise(const el_quaternion *q)
@@ -40,7 +40,7 @@ el_quaternion el_quaternion_normalise(const el_quaternion *q)
 el_quaternion el_quaternion_about(const int32_t axis[3], el_angle angle)
 {
     int32_t unit_q30[3];
-    if (!el_vector_normalise((const int64_t[3]){axis[0], axis[1], axis[2]}, 3, unit_q30)) {
+    if (el_vector_normalise((const int64_t[3]){axis[0], axis[1], axis[2]}, 3, unit_q30) == 0) {
         return el_quaternion_identity();
     }
     const int64_t sine_q30 = el_sin_q30(angle / 2);

@@ -11,17 +11,18 @@ int32_t el_clamp_unit(int64_t value_q30)
     return value_q30 < -EL_UNIT_Q30 ? -EL_UNIT_Q30 : (int32_t)value_q30;
 }
 
-bool el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[])
+int el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[])
 {
     uint64_t bits = 0;
     for (unsigned i = 0; i < count; i++) {
         bits |= el_abs_u64(v[i]);
     }
     if (bits == 0) {
-        return false;
+        return 0;
     }
     /* 30 bits each, or 2^30: the sum of four squares is 2^62 at most. */
-    const int shift = el_bit_length_u64(bits) - 30;
+    const int size_bits = el_bit_length_u64(bits);
+    const int shift = size_bits - 30;
     uint64_t sum = 0;
     for (unsigned i = 0; i < count; i++) {
         const int64_t scaled = el_shift_i64(v[i], shift);
@@ -31,7 +32,7 @@ bool el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[])
     for (unsigned i = 0; i < count; i++) {
         unit_q30[i] = el_clamp_unit((el_shift_i64(v[i], shift) * EL_UNIT_Q30) / length);
     }
-    return true;
+    return size_bits;
 }
 
 void el_vector_cross(const int32_t a_q30[3], const int32_t b_q30[3], int64_t product[3])
@@ -41,11 +42,6 @@ void el_vector_cross(const int32_t a_q30[3], const int32_t b_q30[3], int64_t pro
         const unsigned k = (i + 2U) % 3U;
         product[i] = (int64_t)a_q30[j] * b_q30[k] - (int64_t)a_q30[k] * b_q30[j];
     }
-}
-
-bool el_vector_is_direction(const int64_t product[3])
-{
-    return (el_abs_u64(product[0]) | el_abs_u64(product[1]) | el_abs_u64(product[2])) >= (1ULL << 40);
 }
 
 int64_t el_clamp_place(int64_t value_q16)

@@ -3,7 +3,6 @@
 #ifndef EL_GEOMETRY_VECTOR_H
 #define EL_GEOMETRY_VECTOR_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/fixed.h"
@@ -26,14 +25,15 @@ static inline int64_t el_product_q58(int32_t a_q30, int32_t b_q30)
     return el_product_i32(a_q30, b_q30) >> 2;
 }
 
-/* Scales v, of 3 or 4 numbers, to length 1, Q30, within 4 units. False when it has none. Any v but INT64_MIN. */
-bool el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[]);
+/* Scales v, of 3 or 4 numbers, to length 1, Q30, within 4 units. Returns the bits of its largest number; 0 when v has no
+ * length. Any v but INT64_MIN. */
+int el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[]);
+
+/* A product of two vectors of length 1 that has fewer bits, and so is shorter than 2^-20, is rounding, not a direction. */
+enum { EL_DIRECTION_BITS = 41 };
 
 /* |elements| <= 2^30. */
 void el_vector_cross(const int32_t a_q30[3], const int32_t b_q30[3], int64_t product[3]);
-
-/* Whether a product of two vectors of length 1 is a direction: shorter than 2^-20, it is rounding. */
-bool el_vector_is_direction(const int64_t product[3]);
 
 /* Cut to what el_vector_along takes: four times the world's half. */
 int64_t el_clamp_place(int64_t value_q16);
