@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Sequence
 from typing import NoReturn
@@ -16,6 +18,9 @@ from edgeline.convert.command import add_parser as add_convert_parser
 from edgeline.convert.font_command import add_parser as add_font_parser
 from edgeline.convert.preview import add_parser as add_preview_parser
 from edgeline.errors import EdgelineError
+
+PIPE_CLOSED = 141
+"""What shells report of a program that writes to a pipe without a reader."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -33,10 +38,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         run: Callable[[argparse.Namespace], int] = options.func
-        return run(options)
+        code = run(options)
+        sys.stdout.flush()
+        return code
     except EdgelineError as error:
         complain(str(error))
         return error.exit_code
+    except BrokenPipeError:
+        # Who read the output has seen enough (`| head`); what is left in the buffer must not be tried again at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PIPE_CLOSED
     except KeyboardInterrupt:
         return 130
 

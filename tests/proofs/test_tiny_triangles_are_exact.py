@@ -8,8 +8,8 @@ sub-pixel, 2^-20 per pixel. What the C has at the pixel is, modulo 2^32,
 
 and it is beyond 2^20 (depth - base + 1/2), with base = z0 - 2048, by some excess with 0 < 16 A excess < 2^23. Depth
 and 1/2 is a multiple of 1 / 2A, which is 2^23 / 16 A in these units: V 2^-20 and depth - base + 1/2 have one whole
-part. A plane with quotients per sub-pixel, truncated at 2^-32, is off by W + H units at most, with 2^13 added: beyond as
-well, and by less than 1 / 2A. So both have the same whole part at every covered pixel.
+part. A plane with quotients per sub-pixel, truncated at 2^-32, is off by W + H units at most, with 2^13 added: beyond
+as well, and by less than 1 / 2A. So both have the same whole part at every covered pixel.
 
 Edges are as short ones (test_edges_are_exact), with 2^18 for 2^20 and 24 units less added first:
 

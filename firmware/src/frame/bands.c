@@ -235,10 +235,10 @@ static __attribute__((noinline)) void look_at_run(el_run_look *look, const el_li
 
 /* Flat triangles that are small but not tiny, from their record to their pixels. */
 static __attribute__((noinline)) uint16_t draw_small(el_painter *painter, const el_renderer *renderer, uint16_t name,
-                                                     const el_run_look *look, const el_target *target)
+                                                     const el_record *record, const el_run_look *look,
+                                                     const el_target *target)
 {
     const el_list *const list = &renderer->list;
-    const el_record *const record = el_list_record(list, name);
     const el_point *const points = record->at.points;
     const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
     uint16_t state_name = 0;
@@ -282,27 +282,10 @@ static inline void find_place(tiny_place *place, el_carrying *c, const el_list *
     place->state->is_tiny = true;
 }
 
-/* Draws a record that is listed in this band: nearly all of a mesh without textures or vertex colours are done at once. As
- * draw_named. */
-static inline uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
-                                   const el_target *target, el_run_look *look, tiny_place *place)
+/* What becomes of a tiny triangle that has been drawn into the target: the name under which it is carried on, or 0. */
+static inline uint16_t carry_tiny(el_painter *painter, const el_list *list, uint16_t name, el_tiny_result result,
+                                  tiny_place *place)
 {
-    const el_list *const list = &renderer->list;
-    const el_record *const record = el_list_record(list, name);
-    if (record->run != look->run) {
-        look_at_run(look, list, record->run, target->width);
-    }
-    bool is_other = look->flat == NULL;
-#if EL_WITH_HIDDEN
-    is_other = is_other || el_hidden_is_likely(painter->hidden, painter->stats);
-#endif
-    if (is_other) {
-        return draw_any(painter, renderer, name, target);
-    }
-    const el_tiny_result result = el_tiny_triangle_draw(record, look, target, painter->stats, &place->state->triangle);
-    if (result == EL_TINY_REFUSED) {
-        return draw_small(painter, renderer, name, look, target);
-    }
     if (result == EL_TINY_DRAWN || !painter->goes_on) {
         return 0;
     }
@@ -315,12 +298,67 @@ static inline uint16_t draw_record(el_painter *painter, const el_renderer *rende
     return state_name;
 }
 
+#if EL_WITH_THIN
+/* As draw_record, of a run whose records have no corners. */
+static __attribute__((noinline)) uint16_t draw_thin(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                                    const el_target *target, const el_run_look *look, tiny_place *place)
+{
+    const el_list *const list = &renderer->list;
+    el_run_look as_whole = *look;
+    as_whole.flat = look->thin;
+    el_record whole;
+    el_list_make_whole(&whole, look->thin, el_list_record(list, name));
+    el_count(&painter->stats->vertices, 3);
+    const el_tiny_result result =
+        el_tiny_triangle_draw(&whole, &as_whole, target, painter->stats, &place->state->triangle);
+    if (result == EL_TINY_REFUSED) {
+        return draw_small(painter, renderer, name, &whole, &as_whole, target);
+    }
+    return carry_tiny(painter, list, name, result, place);
+}
+#endif
+
+/* Draws a record that is listed in this band: nearly all of a mesh without textures or vertex colours are done at once. As
+ * draw_named. */
+static inline uint16_t draw_record(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                   const el_target *target, el_run_look *look, tiny_place *place)
+{
+    const el_list *const list = &renderer->list;
+    const el_record *const record = el_list_record(list, name);
+    if (record->run != look->run) {
+        look_at_run(look, list, record->run, target->width);
+    }
 #if EL_WITH_HIDDEN
-/* is_hidden for a carried triangle, whose corners are in its record. */
+    const bool is_hiding = el_hidden_is_likely(painter->hidden, painter->stats);
+#else
+    const bool is_hiding = false;
+#endif
+    const bool is_other = is_hiding || look->flat == NULL;
+    if (is_other) {
+#if EL_WITH_THIN
+        if (look->thin != NULL && !is_hiding) {
+            return draw_thin(painter, renderer, name, target, look, place);
+        }
+#endif
+        return draw_any(painter, renderer, name, target);
+    }
+    const el_tiny_result result = el_tiny_triangle_draw(record, look, target, painter->stats, &place->state->triangle);
+    if (result == EL_TINY_REFUSED) {
+        return draw_small(painter, renderer, name, record, look, target);
+    }
+    return carry_tiny(painter, list, name, result, place);
+}
+
+#if EL_WITH_HIDDEN
+/* is_hidden for a carried triangle whose corners are in its record; a thin one has none, and is drawn. */
 static __attribute__((noinline)) bool record_is_hidden(el_painter *painter, const el_list *list, uint16_t name,
                                                        const el_target *target)
 {
-    const el_point *const p = el_list_record(list, name)->at.points;
+    const el_record *const record = el_list_record(list, name);
+    if (EL_WITH_THIN && el_list_run(list, record)->kind == EL_RECORD_THIN) {
+        return false;
+    }
+    const el_point *const p = record->at.points;
     const int32_t x_begin = el_first_centre(el_min_i32(p[0].x, el_min_i32(p[1].x, p[2].x)));
     const int32_t x_end = el_first_centre(el_max_i32(p[0].x, el_max_i32(p[1].x, p[2].x)));
     const int32_t depth = el_min_i32(p[0].z, el_min_i32(p[1].z, p[2].z));

@@ -260,22 +260,38 @@ static
 }
 
 /* All triangles, or of the clusters those that may be seen. */
-static void draw_triangles(el_drawing *d)
+/* Draws the triangles from number `begin` on, on this core alone. Returns how many its clusters skipped. */
+static EL_APART uint32_t run_alone(el_drawing *d, uint32_t begin)
 {
-    const uint32_t count = d->mesh->triangle_count;
     uint32_t skipped = 0;
+#if EL_CULLS_IN_VIEW
+    el_side sides[EL_SIDES];
+    d->sides = sides;
+#endif
+    if (!EL_WITH_CLUSTERS || !d->by_clusters) {
+        (void)el_drawing_run(d, begin, d->mesh->triangle_count);
+    }
 #if EL_WITH_CLUSTERS
-    if (d->by_clusters) {
+    else {
         skipped = el_drawing_run_clusters(d);
     }
 #endif
-    if (!d->by_clusters) {
-        uint32_t begin = 0;
-#if EL_WITH_WORKERS
-        begin = el_drawing_run_in_parts(d);
+#if EL_CULLS_IN_VIEW
+    d->sides = NULL;
 #endif
-        (void)el_drawing_run(d, begin, count);
+    return skipped;
+}
+
+static void draw_triangles(el_drawing *d)
+{
+    const uint32_t count = d->mesh->triangle_count;
+    uint32_t begin = 0;
+#if EL_WITH_WORKERS
+    if (!d->by_clusters) {
+        begin = el_drawing_run_in_parts(d);
     }
+#endif
+    const uint32_t skipped = run_alone(d, begin);
     el_stats *const stats = &d->renderer->stats;
     el_count(&stats->vertices, d->transformed);
     el_count(&stats->triangles, count - skipped);
@@ -330,7 +346,6 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return EL_OK;
     }
     el_draw_state state = {.mesh = mesh, .material = material};
-    el_drawing d = {.renderer = renderer, .mesh = mesh, .state = &state, .list = &renderer->list};
     const int visibility = el_transform_make(&state.transform, &renderer->view, mesh, pose);
     if (visibility < 0) {
         el_quiet_refuse(renderer);
@@ -353,19 +368,25 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
-    d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
-    d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT;
-    d.culling = (el_culling){.facing = state.mirrored != 0 ? -1 : 1,
-                             .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
-                             .width = renderer->config.width,
-                             .height = renderer->config.height};
+    el_drawing d = {
+        .renderer = renderer,
+        .mesh = mesh,
+        .state = &state,
+        .list = &renderer->list,
+        .kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN,
+        .cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT,
+        .culling = {.facing = state.mirrored != 0 ? -1 : 1,
+                    .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
+                    .width = renderer->config.width,
+                    .height = renderer->config.height},
+        .by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1,
+    };
     el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {
         (void)make_room(renderer);
     }
     find_rows(&d);
-    d.by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1;
     el_vertices_place(&d);
     draw_triangles(&d);
     el_bands_note_use(renderer, renderer->list.used + renderer->list_bytes - renderer->list.end);

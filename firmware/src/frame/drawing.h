@@ -39,7 +39,7 @@ typedef struct el_drawing {
     uint32_t outside_before; /* verdicts when unshared_begin was set */
     bool looks_beside;       /* at the sides, before vertices are transformed */
     bool has_sides;
-    el_side sides[EL_SIDES];
+    el_side *sides; /* EL_SIDES of them; parts, which do not look, have none */
 #endif
     uint32_t transformed;           /* vertices so far */
     uint32_t verdicts[EL_VERDICTS]; /* how many triangles had each */

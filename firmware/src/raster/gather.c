@@ -152,6 +152,19 @@ static EL_APART void find_points(const el_draw_state *draw, const el_record *rec
     }
 }
 
+#if EL_WITH_THIN
+void el_list_make_whole(el_record *whole, const el_draw_state *draw, const el_record *thin)
+{
+    const uint16_t *const vertices = draw->mesh->triangles[thin->index];
+    *whole = (el_record){.run = thin->run, .index = thin->index};
+    for (unsigned i = 0; i < 3; i++) {
+        el_screen_vertex v;
+        el_transform_vertex(&draw->transform, draw->mesh->positions[vertices[i]], &v);
+        whole->at.points[i] = (el_point){.x = v.x, .y = v.y, .z = v.z};
+    }
+}
+#endif
+
 static inline void take_point(el_corner *corner, const el_point *point)
 {
     corner->x = point->x;

@@ -26,6 +26,12 @@ static inline uint16_t el_flat_colour(const el_run_look *look, const el_record *
     return el_rgb565(rgb[0], rgb[1], rgb[2]);
 }
 
+#if EL_WITH_THIN
+/* What a thin record would be if it were plain: with its corners, whose vertices are transformed anew. Of a draw without
+ * textures. */
+void el_list_make_whole(el_record *whole, const el_draw_state *draw, const el_record *thin);
+#endif
+
 /* What is needed to set up a record's triangle: its corners with all attributes, and its surface. Returns how many
  * vertices it transformed for that. */
 unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface);

@@ -34,6 +34,7 @@ static inline const uint8_t *el_plain_colour(const el_draw_state *draw, uint16_t
 /* What the records of a run have in common on a screen of some width, looked up where another run begins. */
 typedef struct el_run_look {
     const el_draw_state *flat;   /* whose triangles are flat, with depth, their corners in their records; else NULL */
+    const el_draw_state *thin;   /* the same, but for the corners: only their vertices have them; else NULL */
     const uint8_t (*colours)[3]; /* of its triangles, as they are drawn; NULL: see el_list_flat_colour */
     uint32_t last_corner;        /* of tiny triangles: y * 2^16 + x; 0 where the screen is too wide for them */
     uint16_t run;
@@ -49,8 +50,12 @@ static inline el_run_look el_look_at_run(const el_list *list, uint16_t name, int
     const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
     /* By its material and as it is shaded: a texture that is left out has a colour of its own. */
     if (draw->material->shading == EL_SHADE_FLAT && el_shading_of(draw) == EL_SHADE_FLAT &&
-        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !(EL_WITH_THIN && run->kind == EL_RECORD_THIN)) {
-        look.flat = draw;
+        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0) {
+        if (EL_WITH_THIN && run->kind == EL_RECORD_THIN) {
+            look.thin = draw;
+        } else {
+            look.flat = draw;
+        }
         look.colours = el_is_lit(draw->material) ? NULL : draw->mesh->triangle_colours;
         look.last_corner = width <= EL_TINY_SCREEN ? (INT16_MAX << 16) + (uint32_t)(width * EL_SUBPIXELS) : 0U;
     }

@@ -32,9 +32,10 @@ typedef struct walker {
     uint32_t pixels;
 } walker;
 
+/* At least one row. */
 static EL_SPECIALISED span *walk_part(walker *w, int32_t left_step, int32_t right_step, span *at, const span *end)
 {
-    while (at != end) {
+    do {
         /* Both are rounded up alike: the right one is never left of the left one. */
         const int32_t x = (int32_t)w->left >> 20;
         const int32_t x_end = (int32_t)w->right >> 20;
@@ -47,7 +48,7 @@ static EL_SPECIALISED span *walk_part(walker *w, int32_t left_step, int32_t righ
         w->right += (uint32_t)right_step;
         at++;
         EL_SETTLE(at);
-    }
+    } while (at != end);
     return at;
 }
 
@@ -61,7 +62,9 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
     walker w = {.left = (uint32_t)left.x, .right = (uint32_t)right.x, .column = 0, .pixels = 0};
     span *at = spans;
     if (triangle->y_middle < y_stop) {
-        at = walk_part(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
+        if (triangle->y_middle > y) {
+            at = walk_part(&w, left.step, right.step, at, spans + (triangle->y_middle - y));
+        }
         const el_edge_q20 lower = el_edge_narrowed(&triangle->lower);
         if (triangle->short_is_left) {
             w.left = (uint32_t)lower.x;
@@ -135,6 +138,7 @@ void el_small_gouraud_draw(el_triangle *triangle, const el_target *target, el_st
     uint32_t empty = 0;
     for (;;) {
         const span row = *next++;
+        /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): walk_sides made a span of each row. */
         move_right(&v, &s.per_column, z_low, row.columns);
         at += row.columns;
         uint16_t *pixel = at;

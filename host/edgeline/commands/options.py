@@ -22,7 +22,7 @@ Options: TypeAlias = argparse._ActionsContainer
 
 EXIT_CODES = """exit codes: 0 done; 1 verify found a difference; 2 bad command line or file; 3 no device: port absent,
 busy or forbidden, or nothing there that speaks this wire; 4 the stream failed: link lost, no verified frame in time,
-recording damaged; 130 interrupted"""
+recording damaged; 130 interrupted; 141 nobody reads the output"""
 
 AnySession = TypeVar("AnySession", bound=Session)
 

@@ -79,6 +79,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/geometry/quaternion.c", "*", REST),
     ("firmware/src/frame/pick.c", "*", REST),
     ("firmware/src/scene/*", "*", REST),
+    ("firmware/src/canvas/*", "*", REST),
     ("firmware/apps/*", "*", REST),
     ("tests/bench/*", "*", REST),
 )
