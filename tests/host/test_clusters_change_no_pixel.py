@@ -56,6 +56,9 @@ def test_clusters_change_no_pixel(simulator: str, tmp_path: Path, mesh: Mesh) ->
     whole, plain = tmp_path / "whole.elm", tmp_path / "plain.elm"
     whole.write_bytes(elm.encode(clustered))
     plain.write_bytes(elm.encode(replace(clustered, clusters=None)))
+    # Triangles that share no vertex are looked at by the sides of the view, a stretch at a time, which a cluster may end.
+    is_loose = len(mesh.positions) == 3 * len(mesh.triangles)
+    slack = 3 * len(clustered.clusters) if is_loose else 0
     outside = turned = 0
     for eye in EYES:
         for look_at in LOOK_AT:
@@ -66,11 +69,11 @@ def test_clusters_change_no_pixel(simulator: str, tmp_path: Path, mesh: Mesh) ->
             assert crc == expected, (eye, look_at)
             assert stats["triangles"] + stats["triangles_skipped"] == all_of_it["triangles"]
             assert stats["triangles_listed"] == all_of_it["triangles_listed"]
-            assert stats["vertices"] <= all_of_it["vertices"]
+            assert stats["vertices"] <= all_of_it["vertices"] + slack
             outside += stats["clusters_outside"]
             turned += stats["clusters_turned"]
     assert outside > len(clustered.clusters) / 2
-    assert turned > len(clustered.clusters) / 2 or len(mesh.positions) == 3 * len(mesh.triangles)
+    assert turned > len(clustered.clusters) / 2 or is_loose
 
 
 def test_a_closed_model_loses_a_fifth_of_its_triangles_unseen(simulator: str, tmp_path: Path) -> None:
