@@ -80,7 +80,7 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/tiny_triangle.c": ["raster/gather.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/fill.c": [
         *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),
-        "raster/depth_row.c",
+        *("raster/depth_row.c", "raster/gather.c"),
         *("raster/texture_walk.c", "base/reciprocals.c"),
         *DIVISION,
     ],
