@@ -80,6 +80,7 @@ static inline bool el_canvas_sees(const el_canvas *canvas, el_rect rect)
     return !el_rect_is_empty(el_rect_shared(rect, canvas->clip));
 }
 
+/* What of `rect` lies in the canvas. */
 void el_canvas_fill(const el_canvas *canvas, el_rect rect, el_paint paint);
 
 /* The outermost `thickness` pixels of `rect`; nothing if that is below 1. */

@@ -97,6 +97,7 @@ typedef struct el_packet_reader {
  * than 6 bytes, longer than EL_PACKET_HOST_BYTES or has a wrong CRC. EL_PACKET_NONE otherwise. */
 int el_packet_feed(el_packet_reader *reader, uint8_t byte, el_packet *packet);
 
+/* Little-endian values at any address. */
 uint16_t el_packet_get_u16(const uint8_t *bytes);
 uint32_t el_packet_get_u32(const uint8_t *bytes);
 
