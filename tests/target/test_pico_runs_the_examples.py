@@ -1,4 +1,4 @@
-"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what two of them show
+"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what three of them show
 in the emulator is what the simulator shows, pixel for pixel, keys included.
 """
 
@@ -18,6 +18,8 @@ NAMES = sorted(path.stem for path in (REPOSITORY / "tests" / "golden").glob("exa
 SIZE = (320, 240)
 ROTATION = 90
 RAM_BYTES = 256 * 1024
+WINDOWS = {"hello_triangle": 1, "textured_room": 1, "flush_callback": 5 + 24}
+"""Pictures that the display's wire has for each frame: all of it, or the pieces of a GUI, 10 lines each, and the bands."""
 FRAME_MS = 3000
 """More than any frame takes."""
 
@@ -54,7 +56,9 @@ def test_its_image_is_there_and_fits(examples: Path, name: str) -> None:
     assert 0 < used <= RAM_BYTES
 
 
-@pytest.mark.parametrize(("name", "keys"), [("hello_triangle", "."), ("textured_room", ".wwd")])
+@pytest.mark.parametrize(
+    ("name", "keys"), [("hello_triangle", "."), ("textured_room", ".wwd"), ("flush_callback", ".")]
+)
 def test_it_shows_what_the_simulator_shows(
     examples: Path, simulator: Simulator, tmp_path: Path, name: str, keys: str
 ) -> None:
@@ -62,17 +66,17 @@ def test_it_shows_what_the_simulator_shows(
     that, whose picture has it in either case."""
     expected = shown_by_the_simulator(simulator, name, keys, tmp_path)
     with Pico(Image(examples, f"example-{name}"), tmp_path) as pico:
-        wait_for_frames(pico, 1)
+        wait_for_pictures(pico, WINDOWS[name])
         for key in keys[1:]:
             pico.step(MS, key.encode())
-            wait_for_frames(pico, 2)
+            wait_for_pictures(pico, 2 * WINDOWS[name])
         shown = simulator.look(pico.wire_until_picture(pico.frame_ends - 1), "ili9341", SIZE, ROTATION)
         assert_same_picture(shown, expected, name)
         pico.report().assert_clean()
 
 
-def wait_for_frames(pico: Pico, count: int) -> None:
-    """Until so many more pictures are complete."""
+def wait_for_pictures(pico: Pico, count: int) -> None:
+    """Until so many more are complete."""
     wanted = pico.frame_ends + count
     end = pico.now_ns + count * FRAME_MS * MS
     while pico.frame_ends < wanted:
