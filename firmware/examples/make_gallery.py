@@ -36,7 +36,8 @@ the tests compare them pixel by pixel; `firmware/examples/make_gallery.py` makes
 
 On the Pico the display is wired as `firmware/boards/rp2040/WIRING.md` says (`one_bit`: an SSD1306 on the same pins),
 and keys are letters that a terminal sends to its serial line at 115,200 baud. In the simulator they are `--keys`, one for
-each frame; `--png frame-%03d.png` keeps every frame. A program is two functions, `example_setup` and `example_frame`
+each frame; `--png frame-%03d.png` keeps every frame, and `--pty` prints a port for `edgeline view -p PORT`, which shows it
+moving, with keys typed where it was started. A program is two functions, `example_setup` and `example_frame`
 (`programs/example.h`), so it moves to a board of your own with `programs/board_main.c`, or into your own loop.
 
 Arduino sketches are in `HelloTriangle`, `SpinningModel` and `StreamToHost`, a project for ESP-IDF in `esp_idf`.

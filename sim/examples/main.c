@@ -10,6 +10,7 @@
 #include "example.h"
 #include "files.h"
 #include "frame_name.h"
+#include "live.h"
 #include "machine.h"
 #include "options.h"
 #include "png_file.h"
@@ -20,18 +21,20 @@ enum { CHUNK = 192 }; /* what the simulated DMA sends while the program waits on
 typedef struct example_options {
     long frames, step_ms;
     const char *keys, *png, *raw;
-    bool crc;
+    bool crc, pty;
 } example_options;
 
 static const char usage[] =
     "usage: " EXAMPLE_NAME " [--frames N] [--step MS] [--keys TEXT] [--png FILE] [--raw FILE] [--crc]\n"
     "  --keys: a letter for each frame, as a terminal would send it to a board; '.' for none\n"
-    "  --png: the last frame; with %d or %04d in FILE each of them\n";
+    "  --png: the last frame; with %d or %04d in FILE each of them\n"
+    "       " EXAMPLE_NAME " --pty [--frames N]\n"
+    "  prints a port for `edgeline view -p PORT`, and takes keys where it was started\n";
 
 /* False after one line on stderr. */
 static bool parse(int argc, char **argv, example_options *o)
 {
-    enum { FRAMES = 1, STEP, KEYS, PNG_FILE, RAW, CRC };
+    enum { FRAMES = 1, STEP, KEYS, PNG_FILE, RAW, CRC, PTY };
     static const struct option options[] = {
         {"frames", required_argument, NULL, FRAMES},
         {"step", required_argument, NULL, STEP},
@@ -39,9 +42,10 @@ static bool parse(int argc, char **argv, example_options *o)
         {"png", required_argument, NULL, PNG_FILE},
         {"raw", required_argument, NULL, RAW},
         {"crc", no_argument, NULL, CRC},
+        {"pty", no_argument, NULL, PTY},
         {NULL, 0, NULL, 0},
     };
-    *o = (example_options){.frames = 1, .step_ms = 33};
+    *o = (example_options){.step_ms = 33};
     int which;
     bool good = true;
     opterr = 0;
@@ -65,6 +69,9 @@ static bool parse(int argc, char **argv, example_options *o)
         case CRC:
             o->crc = true;
             break;
+        case PTY:
+            o->pty = true;
+            break;
         default:
             el_report("'%s' is unknown or lacks its value", argv[optind - 1]);
             good = false;
@@ -73,6 +80,13 @@ static bool parse(int argc, char **argv, example_options *o)
     if (good && optind != argc) {
         el_report("'%s' is no option", argv[optind]);
         good = false;
+    }
+    if (good && o->pty && (o->keys != NULL || o->png != NULL || o->raw != NULL || o->crc)) {
+        el_report("--pty goes with --frames alone");
+        good = false;
+    }
+    if (o->frames == 0 && !o->pty) {
+        o->frames = 1;
     }
     return good;
 }
@@ -138,6 +152,9 @@ int main(int argc, char **argv)
     example_options o;
     if (!parse(argc, argv, &o)) {
         return EL_EXIT_BAD;
+    }
+    if (o.pty) {
+        return example_watch(o.frames) ? EL_EXIT_OK : EL_EXIT_BAD;
     }
     el_display display = {0};
     el_output raw = {0};
