@@ -27,17 +27,17 @@ PAGE = HERE / "GALLERY.md"
 HEAD = """# Gallery
 
 Complete programs of fewer than 100 lines, in `firmware/examples/programs`. Each is one C source that runs in the
-simulator and on a Raspberry Pi Pico, with the same pixels. The pictures below are what the commands beside them made, and
-the tests compare them pixel by pixel; `firmware/examples/make_gallery.py` makes this page.
+simulator and on a Raspberry Pi Pico, with the same pixels. The pictures below are what the commands beside them made,
+and the tests compare them pixel by pixel; `firmware/examples/make_gallery.py` makes this page.
 
     cmake --preset sim && cmake --build --preset sim             # all of them: build/sim/examples/NAME
     cmake --preset rp2040                                        # once; then one of them, or the target examples:
     cmake --build --preset rp2040 --target example-menu          # build/rp2040/example-menu.uf2: drop it onto the Pico
 
 On the Pico the display is wired as `firmware/boards/rp2040/WIRING.md` says (`one_bit`: an SSD1306 on the same pins),
-and keys are letters that a terminal sends to its serial line at 115,200 baud. In the simulator they are `--keys`, one for
-each frame; `--png frame-%03d.png` keeps every frame, and `--pty` prints a port for `edgeline view -p PORT`, which shows it
-moving, with keys typed where it was started. A program is two functions, `example_setup` and `example_frame`
+and keys are letters that a terminal sends to its serial line at 115,200 baud. In the simulator they are `--keys`, one
+for each frame; `--png frame-%03d.png` keeps every frame, and `--pty` prints a port for `edgeline view -p PORT`, which
+shows it moving, with keys typed where it was started. A program is two functions, `example_setup` and `example_frame`
 (`programs/example.h`), so it moves to a board of your own with `programs/board_main.c`, or into your own loop.
 
 Arduino sketches are in `HelloTriangle`, `SpinningModel` and `StreamToHost`, a project for ESP-IDF in `esp_idf`.

@@ -1,5 +1,5 @@
-"""The guide tells the truth: its C stands in programs and tests that are compiled, its pictures are what the commands below
-them make, its commands run, and its links lead somewhere.
+"""The guide tells the truth: its C stands in programs and tests that are compiled, its pictures are what the commands
+below them make, its commands run, and its links lead somewhere.
 """
 
 from __future__ import annotations

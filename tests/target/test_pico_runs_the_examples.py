@@ -1,5 +1,5 @@
-"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what three of them show
-in the emulator is what the simulator shows, pixel for pixel, keys included.
+"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what three of them
+show in the emulator is what the simulator shows, pixel for pixel, keys included.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ SIZE = (320, 240)
 ROTATION = 90
 RAM_BYTES = 256 * 1024
 WINDOWS = {"hello_triangle": 1, "textured_room": 1, "flush_callback": 5 + 24}
-"""Pictures that the display's wire has for each frame: all of it, or the pieces of a GUI, 10 lines each, and the bands."""
+"""Pictures that the display's wire has for each frame: one, or the pieces of a GUI, 10 lines each, and the bands."""
 FRAME_MS = 3000
 """More than any frame takes."""
 
