@@ -13,7 +13,8 @@ extern "C" {
 #endif
 
 /* The order of a block's pixels, by row and column. */
-static const _Alignas(4) uint8_t el_dither_order[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+static const uint8_t el_dither_order[4][4]
+    __attribute__((aligned(4))) = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
 
 /* The threshold of pixel (x, y) as a fraction of a level, Q16: (2 k + 1) / 32 for k = 0..15. */
 static inline uint32_t el_dither_threshold_q16(uint32_t x, uint32_t y)
@@ -33,7 +34,8 @@ static inline el_dither_row el_dither_row_at(uint32_t x, uint32_t y)
         (uint32_t)order[0] | (uint32_t)order[1] << 8 | (uint32_t)order[2] << 16 | (uint32_t)order[3] << 24;
     const unsigned turn = (unsigned)((x - 1U) & 3U) * 8U;
     const uint32_t q8 = all * 16U + 0x08080808U;
-    return (el_dither_row){.next = q8 >> turn | q8 << (-turn & 31U)};
+    const el_dither_row row = {q8 >> turn | q8 << (-turn & 31U)};
+    return row;
 }
 
 /* Of the next pixel, as el_dither_threshold_q16 has it. */

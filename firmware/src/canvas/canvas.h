@@ -44,23 +44,23 @@ typedef struct el_paint {
                                again: 0 is not drawn. NULL: all is */
 } el_paint;
 
-static inline el_paint el_solid(uint16_t colour)
-{
-    return (el_paint){.colour = colour, .alpha = 255, .pattern = NULL};
-}
-
+/* Alpha 255 is solid. C++ takes these functions too, and knows no compound literals. */
 static inline el_paint el_glaze(uint16_t colour, uint8_t alpha)
 {
-    return (el_paint){.colour = colour, .alpha = alpha, .pattern = NULL};
+    const el_paint paint = {colour, alpha, NULL};
+    return paint;
+}
+
+static inline el_paint el_solid(uint16_t colour)
+{
+    return el_glaze(colour, 255);
 }
 
 /* All of a band. */
 static inline el_canvas el_canvas_of(const el_band *band)
 {
-    return (el_canvas){.pixels = band->pixels,
-                       .stride = band->width,
-                       .y = band->y,
-                       .clip = {0, band->y, band->width, band->y + band->lines}};
+    const el_canvas canvas = {band->pixels, band->width, band->y, {0, band->y, band->width, band->y + band->lines}};
+    return canvas;
 }
 
 /* What `a` and `b` share. */
