@@ -1,4 +1,4 @@
-"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what three of them
+"""The programs of firmware/examples/programs as images for the Pico: each is built and fits, and what four of them
 show in the emulator is what the simulator shows, pixel for pixel, keys included.
 """
 
@@ -17,6 +17,7 @@ from target_tools import REPOSITORY, Image, Picture, Simulator, assert_same_pict
 NAMES = sorted(path.stem for path in (REPOSITORY / "tests" / "golden").glob("example-*.png"))
 SIZE = (320, 240)
 ROTATION = 90
+OLED_SIZE = (128, 64)
 RAM_BYTES = 256 * 1024
 WINDOWS = {"hello_triangle": 1, "textured_room": 1, "flush_callback": 5 + 24}
 """Pictures that the display's wire has for each frame: one, or the pieces of a GUI, 10 lines each, and the bands."""
@@ -35,13 +36,15 @@ def examples(board_image: Callable[..., Image]) -> Path:
     return folder
 
 
-def shown_by_the_simulator(simulator: Simulator, name: str, keys: str, folder: Path) -> Picture:
+def shown_by_the_simulator(
+    simulator: Simulator, name: str, keys: str, folder: Path, size: tuple[int, int] = SIZE
+) -> Picture:
     """Its frame number len(keys), the last one."""
     raw = folder / f"{name}.rgb565"
     program = str(simulator.path.parent / "examples" / name)
     command = [program, "--frames", str(len(keys)), "--keys", keys, "--raw", str(raw)]
     subprocess.run(command, check=True, timeout=60)
-    picture: Picture = np.fromfile(raw, "<u2").reshape(len(keys), SIZE[1], SIZE[0])[-1]
+    picture: Picture = np.fromfile(raw, "<u2").reshape(len(keys), size[1], size[0])[-1]
     return picture
 
 
@@ -72,6 +75,20 @@ def test_it_shows_what_the_simulator_shows(
             wait_for_pictures(pico, 2 * WINDOWS[name])
         shown = simulator.look(pico.wire_until_picture(pico.frame_ends - 1), "ili9341", SIZE, ROTATION)
         assert_same_picture(shown, expected, name)
+        pico.report().assert_clean()
+
+
+def test_an_oled_shows_what_the_simulator_shows(examples: Path, simulator: Simulator, tmp_path: Path) -> None:
+    """Its frames have no end on the wire: when the second one begins, the first has been handed over, and it is on the
+    glass 100 us later, in which the second cannot have been drawn as far as its first band."""
+    expected = shown_by_the_simulator(simulator, "one_bit", ".", tmp_path, OLED_SIZE)
+    with Pico(Image(examples, "example-one_bit"), tmp_path, frame_at="el_frame_begin") as pico:
+        for begun, step in ((1, MS), (2, MS // 10)):
+            while pico.report().frame_count < begun:
+                assert pico.now_ns < FRAME_MS * MS, f"frame {begun} has not begun within {FRAME_MS} ms"
+                pico.step(step)
+        pico.step(MS // 10)
+        assert_same_picture(simulator.look(pico.trace, "ssd1306", OLED_SIZE), expected, "one_bit")
         pico.report().assert_clean()
 
 
