@@ -15,7 +15,7 @@ static el_camera camera = {.fov_y = EL_DEGREES(40, 1), .near_q16 = EL_UNIT_Q16, 
 static const el_material material = {.shading = EL_SHADE_FLAT, .light = &example_light};
 static const el_bus *bus;
 
-/* The display's driver as the GUI's program has it: a window of the controller, then its pixels. */
+/* The display's driver as the GUI's program has it: a window, then its pixels; for glass that fills its controller. */
 static void send(const gui_area *area, const uint16_t *pixels, void (*done)(void *argument), void *argument)
 {
     const uint8_t columns[4] = {(uint8_t)(area->x1 >> 8), (uint8_t)area->x1, (uint8_t)(area->x2 >> 8),
