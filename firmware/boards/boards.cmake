@@ -9,9 +9,13 @@
 #       and EDGELINE_ROTATION choose others. MEMORY is what renderer and stream share. SCENE is the one at the start, "demo"
 #       unless it is named. With EDGELINE_SPARING it leaves out what has not changed; otherwise each frame is one window on
 #       the display's wire, by which the boards' tests tell frames apart.
+#   edgeline_examples(SCRIPT FILE SOURCES FILE... PANEL NAME ROTATION DEGREES)
+#       The programs of firmware/examples/programs as example-NAME, not built unless asked for; `examples` is all of them.
+#       PANEL and ROTATION as above.
 include_guard(GLOBAL)
 
 set(EDGELINE_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
+include(${EDGELINE_BOARDS_DIR}/../examples/programs/examples.cmake)
 set(EDGELINE_CORTEX_M_SOURCES ${EDGELINE_BOARDS_DIR}/cortex_m/start.c ${EDGELINE_BOARDS_DIR}/cortex_m/fault.c)
 
 string(REGEX REPLACE "gcc$" "size" edgeline_size ${CMAKE_C_COMPILER})
@@ -42,16 +46,18 @@ function(edgeline_program name)
         BYPRODUCTS ${base}.bin ${base}.map VERBATIM)
 endfunction()
 
-function(edgeline_demo)
-    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SCRIPT;PANEL;ROTATION;BAND;MEMORY;SCENE" "SOURCES")
-    if(NOT DEFINED arg_SCENE)
-        set(arg_SCENE demo)
-    endif()
+# EDGELINE_PANEL and EDGELINE_ROTATION instead of the caller's arg_PANEL and arg_ROTATION.
+macro(edgeline_choose_panel)
     foreach(choice PANEL ROTATION)
         if(NOT EDGELINE_${choice} STREQUAL "")
             set(arg_${choice} ${EDGELINE_${choice}})
         endif()
     endforeach()
+endmacro()
+
+# What panel_tft.c and panel_oled.c of the demo ask for; also for other programs that show something.
+function(edgeline_panel target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "PANEL;ROTATION;BAND" "")
     if(NOT arg_ROTATION MATCHES "^(0|90|180|270)$")
         message(FATAL_ERROR "EDGELINE_ROTATION is '${arg_ROTATION}', not one of 0, 90, 180, 270")
     endif()
@@ -66,13 +72,43 @@ function(edgeline_demo)
     endif()
     string(REPLACE "-" "_" model ${arg_PANEL})
     string(TOUPPER ${model} macros)
-    set(demo ${EDGELINE_BOARDS_DIR}/../apps/demo)
-    edgeline_program(edgeline-demo SCRIPT ${arg_SCRIPT} LIBRARIES edgeline_scenes
-        SOURCES ${arg_SOURCES} ${demo}/main.c ${demo}/${panel_source})
-    target_compile_definitions(edgeline-demo PRIVATE
-        EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
+    target_sources(${target} PRIVATE ${EDGELINE_BOARDS_DIR}/../apps/demo/${panel_source})
+    target_compile_definitions(${target} PRIVATE
+        EL_DEMO_ROTATION=EL_ROTATION_${arg_ROTATION}
         EL_DEMO_MODEL=el_${model} EL_DEMO_INIT=el_${model}_init EL_DEMO_SINK=el_${model}_sink
         EL_DEMO_PANEL_MEMORY=EL_${macros}_MEMORY_BYTES
         EL_DEMO_SPARING=$<BOOL:${EDGELINE_SPARING}>
-        EL_DEMO_BAND_LINES=${arg_BAND} EL_DEMO_MEMORY_BYTES=${arg_MEMORY})
+        EL_DEMO_BAND_LINES=${arg_BAND})
+endfunction()
+
+function(edgeline_demo)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SCRIPT;PANEL;ROTATION;BAND;MEMORY;SCENE" "SOURCES")
+    if(NOT DEFINED arg_SCENE)
+        set(arg_SCENE demo)
+    endif()
+    edgeline_choose_panel()
+    edgeline_program(edgeline-demo SCRIPT ${arg_SCRIPT} LIBRARIES edgeline_scenes
+        SOURCES ${arg_SOURCES} ${EDGELINE_BOARDS_DIR}/../apps/demo/main.c)
+    edgeline_panel(edgeline-demo PANEL ${arg_PANEL} ROTATION ${arg_ROTATION} BAND ${arg_BAND})
+    target_compile_definitions(edgeline-demo PRIVATE
+        EL_DEMO_SCENE="${arg_SCENE}" EL_DEMO_PANEL="${arg_PANEL}" EL_DEMO_MEMORY_BYTES=${arg_MEMORY})
+endfunction()
+
+# The board's sources are compiled once for all of them.
+function(edgeline_examples)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SCRIPT;PANEL;ROTATION" "SOURCES")
+    edgeline_choose_panel()
+    add_library(edgeline_board OBJECT EXCLUDE_FROM_ALL ${arg_SOURCES})
+    target_include_directories(edgeline_board PRIVATE ${EDGELINE_BOARDS_DIR})
+    target_link_libraries(edgeline_board PRIVATE edgeline edgeline_flags)
+    add_custom_target(examples)
+    foreach(name ${EDGELINE_EXAMPLES})
+        set(target example-${name})
+        edgeline_program(${target} SCRIPT ${arg_SCRIPT} SOURCES $<TARGET_OBJECTS:edgeline_board>
+            ${EDGELINE_EXAMPLES_DIR}/board_main.c)
+        edgeline_example(${target} ${name} PANEL ${arg_PANEL} ROTATION ${arg_ROTATION})
+        edgeline_panel(${target} PANEL ${EXAMPLE_PANEL_NAME} ROTATION ${EXAMPLE_PANEL_ROTATION} BAND 8)
+        set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+        add_dependencies(examples ${target})
+    endforeach()
 endfunction()

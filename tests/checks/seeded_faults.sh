@@ -52,6 +52,7 @@ printf '"""Nothing."""\n\nANSWER: int = 42\n' >"$sound/host/edgeline/__init__.py
 cat >"$sound/firmware/src/base/low.h" <<'C'
 #pragma once
 #include <stdint.h>
+/* A third. */
 uint32_t el_low(uint32_t x);
 C
 cat >"$sound/firmware/src/base/low.c" <<'C'
@@ -145,6 +146,8 @@ fault readme_program "a program that does not compile" "unused" README.md \
     <<<$'```c\nint main(void) { int x = 0; return 0; }\n```'
 fault readme_program "a program that does not link" "el_absent" README.md \
     <<<$'```c\nint el_absent(void);\nint main(void) { return el_absent(); }\n```'
+fault reference "a function without a comment" "el_own" firmware/src/base/low.h <<<$'\nuint32_t el_own(void);'
+fault reference "a module that cannot be read" "Error importing" host/edgeline/a.py <<<'import no_such_module'
 fault own_paths "a folder of one machine" "a path of one machine" a.txt <<<"see /root""/notes"
 fault own_paths "an address of a registry" "an address of a package registry" a.txt \
     <<<"https:""//registry.example.org/x.tgz"
