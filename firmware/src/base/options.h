@@ -101,14 +101,28 @@
 #define EL_WITH_REUSE (!EL_SMALL_CODE)
 #endif
 
+/* What is mixed from more than one colour per pixel, and textures of any kind (el_material.alpha, .fog; el_texture.image,
+ * .wrap_u, .wrap_v, .smooth). Without, which is what small code begins with: EL_ERROR_MATERIAL. */
+#ifndef EL_WITH_MIXED
+#define EL_WITH_MIXED (!EL_SMALL_CODE)
+#endif
+
+/* el_texture.smaller. Without, which is what small code begins with: the largest is used. */
+#ifndef EL_WITH_MIPMAPS
+#define EL_WITH_MIPMAPS (!EL_SMALL_CODE && EL_WITH_TEXTURE)
+#endif
+
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
      EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_CLUSTERS | EL_WITH_HIDDEN | EL_WITH_PREPASS |              \
-     EL_WITH_WORKERS | EL_WITH_REUSE | EL_WITH_DEBUG_VIEWS) &                                                          \
+     EL_WITH_WORKERS | EL_WITH_REUSE | EL_WITH_MIXED | EL_WITH_MIPMAPS | EL_WITH_DEBUG_VIEWS) &                        \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
 #endif
 #if EL_WITH_HIDDEN && !EL_WITH_STATS
 #error "EL_WITH_HIDDEN needs EL_WITH_STATS"
+#endif
+#if EL_WITH_MIPMAPS && !EL_WITH_TEXTURE
+#error "EL_WITH_MIPMAPS needs EL_WITH_TEXTURE"
 #endif
 #if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
 #error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"

@@ -9,6 +9,7 @@
 #include "frame/quiet.h"
 #include "geometry/clip.h"
 #include "raster/gather.h"
+#include "raster/texture.h"
 
 /* Attributes of corners that are cut. */
 enum { U, V, RGB };
@@ -294,7 +295,14 @@ enum {
                (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
 };
 
-static el_status check(const el_mesh *mesh, const el_material *material)
+/* Whether el_fill_mixed draws it. */
+static bool is_mixed(const el_material *material, el_shading shading)
+{
+    return EL_WITH_MIXED && shading != EL_SHADE_OVERDRAW &&
+           (el_is_blended(material) || (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+}
+
+static el_status check(const el_config *config, const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return EL_ERROR_SIZE;
@@ -307,9 +315,12 @@ static el_status check(const el_mesh *mesh, const el_material *material)
         (!EL_WITH_DITHER && (material->flags & EL_MATERIAL_DITHER) != 0) ||
         (!EL_WITH_LIGHT && material->light != NULL) ||
         (el_has_texture((el_shading)shading) &&
-         (material->texture == NULL || material->texture->texels == NULL || mesh->uvs == NULL ||
-          material->texture->width_log2 > 10 || material->texture->height_log2 > 10)) ||
+         (material->texture == NULL || mesh->uvs == NULL || !el_texture_is_good(material->texture))) ||
         (el_is_lit(material) && mesh->normals == NULL)) {
+        return EL_ERROR_MATERIAL;
+    }
+    const bool blends_depth = (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
+    if (el_is_blended(material) && (!EL_WITH_MIXED || (blends_depth && config->depth_prepass))) {
         return EL_ERROR_MATERIAL;
     }
     return EL_OK;
@@ -320,7 +331,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const el_status status = check(mesh, material);
+    const el_status status = check(&renderer->config, mesh, material);
     if (status != EL_OK) {
         return status;
     }
@@ -353,6 +364,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
+    state.is_mixed = is_mixed(material, shading);
     d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
     d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT;
     d.culling = (el_culling){.facing = state.mirrored != 0 ? -1 : 1,

@@ -64,16 +64,38 @@ static uint32_t hash_mesh(uint32_t hash, const el_mesh *mesh)
     return el_hash_word(hash, (uint16_t)mesh->centre[2]);
 }
 
+static uint32_t hash_image(uint32_t hash, const el_image *image)
+{
+    hash = hash_pointer(hash, image->pixels);
+    hash = hash_pointer(hash, image->palette);
+    hash = hash_pointer(hash, image->alpha);
+    hash = hash_pair(hash, image->width, image->height);
+    return hash_pair(hash, (uint32_t)image->format << 1 | image->has_key, image->key);
+}
+
+static uint32_t hash_texture(uint32_t hash, const el_texture *texture)
+{
+    for (; texture != NULL; texture = texture->smaller) {
+        hash = hash_pointer(hash, texture->texels);
+        hash = hash_pair(hash, texture->width_log2, texture->height_log2);
+        hash = el_hash_word(hash, (uint32_t)texture->wrap_u << 8 | (uint32_t)texture->wrap_v << 1 | texture->smooth);
+        if (texture->image != NULL) {
+            hash = hash_image(hash, texture->image);
+        }
+    }
+    return hash;
+}
+
 static uint32_t hash_material(uint32_t hash, const el_material *material)
 {
     hash = hash_pair(hash, material->shading, material->flags);
+    hash = el_hash_word(hash, material->alpha);
     hash = el_hash_word(hash, (uint32_t)material->colour[0] << 16 | (uint32_t)material->colour[1] << 8 |
                                   (uint32_t)material->colour[2]);
     hash = hash_pointer(hash, material->texture);
     hash = hash_pointer(hash, material->light);
     if (material->texture != NULL) {
-        hash = hash_pointer(hash, material->texture->texels);
-        hash = hash_pair(hash, material->texture->width_log2, material->texture->height_log2);
+        hash = hash_texture(hash, material->texture);
     }
     if (material->light != NULL) {
         hash = hash_words(hash, material->light->direction_q30, 3);

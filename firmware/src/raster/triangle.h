@@ -32,7 +32,12 @@ typedef struct el_surface {
     bool dither;               /* Gouraud and textured times Gouraud */
     uint16_t colour;           /* flat: RGB565 */
     uint8_t uv_error_log2;     /* textured: u and v are within 2^-uv_error_log2 texels; 1..5 */
-    const el_texture *texture; /* textured */
+    bool is_mixed;             /* drawn by el_fill_mixed, of a material, ... */
+    uint8_t level;             /* ... with that texture of its chain */
+    union {
+        const el_texture *texture;   /* textured, not mixed */
+        const el_material *material; /* mixed */
+    };
 } el_surface;
 
 /* u/w, v/w and 1/w, from which texture coordinates are made. */

@@ -62,6 +62,8 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/rows.c", "*", "rows"),
     ("firmware/src/raster/spans.c", "*", "rows"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
+    ("firmware/src/raster/sampler.c", "*", "pixels"),
+    ("firmware/src/raster/texture.c", "*", "set-up"),
     ("firmware/src/raster/texture_walk.c", "*", "pixels"),
     ("firmware/src/raster/depth_row.c", "*", "pixels"),
     ("firmware/src/frame/bands.c", "open_band", "sink"),
