@@ -37,6 +37,12 @@ typedef struct look {
     el_corner corners[3];
 } look;
 
+static uint8_t any_finish(seeded *s, el_shading shading)
+{
+    const int dither = any_below(s, 2) == 0 && el_has_colours(shading) ? EL_FINISH_DITHER : 0;
+    return (uint8_t)(dither | EL_FINISH_MIXED);
+}
+
 /* The surface as el_list_gather makes it. */
 static void any_look(seeded *s, look *l)
 {
@@ -63,10 +69,9 @@ static void any_look(seeded *s, look *l)
                                 .alpha = any_below(s, 2) == 0 ? 0 : (uint8_t)any_u64(s)};
     l->surface = (el_surface){.shading = (el_shading)l->material.shading,
                               .depth = any_below(s, 4) != 0,
-                              .dither = any_below(s, 2) == 0,
+                              .finish = any_finish(s, (el_shading)l->material.shading),
                               .colour = (uint16_t)any_u64(s),
                               .uv_error_log2 = (uint8_t)any_between(s, 1, 5),
-                              .is_mixed = true,
                               .material = &l->material};
     for (unsigned i = 0; i < 3; i++) {
         l->corners[i] = any_corner(s, SIZE * EL_SUBPIXELS / 2, 30 * EL_SUBPIXELS);
@@ -93,7 +98,7 @@ static void draw(el_triangle *triangle, uint16_t *to, uint16_t *to_depth)
 static uint32_t lit(uint32_t channel, uint32_t light_q24, const el_surface *surface, uint32_t threshold_q16)
 {
     const int32_t light_q16 = (((int32_t)(light_q24 >> 16) - 0x80) * 257) >> 8;
-    return surface->dither ? (uint32_t)((int32_t)channel * light_q16 + (int32_t)threshold_q16) >> 16
+    return (surface->finish & EL_FINISH_DITHER) != 0 ? (uint32_t)((int32_t)channel * light_q16 + (int32_t)threshold_q16) >> 16
                            : (channel * ((light_q24 >> 24) + 1U)) >> 8;
 }
 
@@ -121,7 +126,7 @@ static void expect_pixel(const seeded *s, const look *l, const el_sample *sample
         own = (uint16_t)(lit(base >> 11, rgb[0], &l->surface, threshold_q16) << 11 |
                          lit(base >> 5 & 63U, rgb[1], &l->surface, threshold_q16) << 5 |
                          lit(base & 31U, rgb[2], &l->surface, threshold_q16));
-        if (is_alone && !l->surface.dither) {
+        if (is_alone && (l->surface.finish & EL_FINISH_DITHER) == 0) {
             own = (uint16_t)(rgb[0] >> 27 << 11 | rgb[1] >> 26 << 5 | rgb[2] >> 27);
         }
     }
@@ -182,7 +187,7 @@ static void test_what_is_not_mixed_is_as_by_the_other_loops(void)
         l.texture = (el_texture){.texels = texels, .width_log2 = 3, .height_log2 = 3};
         l.material.alpha = any_below(&s, 2) == 0 ? 0 : 255;
         el_surface plain = l.surface;
-        plain.is_mixed = false;
+        plain.finish = l.surface.finish & (uint8_t)~EL_FINISH_MIXED;
         plain.texture = &l.texture;
         el_triangle mixed;
         el_triangle other;

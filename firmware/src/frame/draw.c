@@ -295,11 +295,17 @@ enum {
                (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
 };
 
-/* Whether el_fill_mixed draws it. */
-static bool is_mixed(const el_material *material, el_shading shading)
+/* EL_FINISH_ of its surfaces, as it is shaded. */
+static uint8_t finish_of(const el_material *material, el_shading shading)
 {
-    return EL_WITH_MIXED && shading != EL_SHADE_OVERDRAW &&
-           (el_is_blended(material) || (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+    if (shading == EL_SHADE_OVERDRAW) {
+        return 0;
+    }
+    const bool dithers = (material->flags & EL_MATERIAL_DITHER) != 0 && el_has_colours(shading);
+    const bool mixes =
+        EL_WITH_MIXED &&
+        (el_is_blended(material) || (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+    return (uint8_t)((dithers ? EL_FINISH_DITHER : 0) | (mixes ? EL_FINISH_MIXED : 0));
 }
 
 static el_status check(const el_config *config, const el_mesh *mesh, const el_material *material)
@@ -364,7 +370,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
-    state.is_mixed = is_mixed(material, shading);
+    state.finish = finish_of(material, shading);
     d.kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN;
     d.cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT;
     d.culling = (el_culling){.facing = state.mirrored != 0 ? -1 : 1,

@@ -268,8 +268,9 @@ static EL_APART void choose_level(const el_texture *texture, el_corner corners[3
         corners[i].u_q16 >>= level;
         corners[i].v_q16 >>= level;
     }
-    surface->level = (uint8_t)level;
-    if (!surface->is_mixed) {
+    if (el_is_mixed(surface)) {
+        surface->level = (uint8_t)level;
+    } else {
         surface->texture = el_texture_at_level(texture, level);
     }
 }
@@ -284,13 +285,11 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     const el_shading shading = el_shading_of(draw);
     surface->shading = shading;
     surface->depth = (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
-    surface->dither = (material->flags & EL_MATERIAL_DITHER) != 0;
-    surface->is_mixed = EL_WITH_MIXED && draw->is_mixed;
-    surface->level = 0;
-    if (surface->is_mixed) {
+    surface->finish = draw->finish;
+    surface->texture = material->texture;
+    if (el_is_mixed(surface)) {
         surface->material = material;
-    } else {
-        surface->texture = material->texture;
+        surface->level = 0;
     }
 
     const uint8_t *const plain = shading == EL_SHADE_FLAT ? el_plain_colour(draw, record->index) : NULL;
@@ -328,7 +327,7 @@ unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_c
     *surface = (el_surface){
         .shading = EL_SHADE_FLAT,
         .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW &&
-                 !(EL_WITH_MIXED && draw->is_mixed),
+                 (draw->finish & EL_FINISH_MIXED) == 0,
     };
     if (!surface->depth) {
         return 0U;
