@@ -37,6 +37,7 @@
 #include "geometry/orbit.h"
 #include "geometry/pose.h"
 #include "geometry/quaternion.h"
+#include "raster/fog.h"
 #include "raster/material.h"
 #include "scene/instances.h"
 

@@ -98,8 +98,9 @@ static void draw(el_triangle *triangle, uint16_t *to, uint16_t *to_depth)
 static uint32_t lit(uint32_t channel, uint32_t light_q24, const el_surface *surface, uint32_t threshold_q16)
 {
     const int32_t light_q16 = (((int32_t)(light_q24 >> 16) - 0x80) * 257) >> 8;
-    return (surface->finish & EL_FINISH_DITHER) != 0 ? (uint32_t)((int32_t)channel * light_q16 + (int32_t)threshold_q16) >> 16
-                           : (channel * ((light_q24 >> 24) + 1U)) >> 8;
+    return (surface->finish & EL_FINISH_DITHER) != 0
+               ? (uint32_t)((int32_t)channel * light_q16 + (int32_t)threshold_q16) >> 16
+               : (channel * ((light_q24 >> 24) + 1U)) >> 8;
 }
 
 static void expect_pixel(const seeded *s, const look *l, const el_sample *sample, uint32_t x, uint32_t y)

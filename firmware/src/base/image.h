@@ -71,7 +71,7 @@ static inline uint32_t el_image_at(const el_image *image, el_image_format format
 /* Where a smooth pixel is looked up: the four whose centres lie around it, and how far it is from the first of them, in
  * sixteenths of their distance. */
 typedef struct el_image_spot {
-    uint32_t x[2], y[2]; /* beyond the image there is nothing */
+    uint32_t x[2], y[2];  /* beyond the image there is nothing */
     uint32_t right, down; /* 0 to 15 */
 } el_image_spot;
 

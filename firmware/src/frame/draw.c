@@ -302,13 +302,12 @@ static uint8_t finish_of(const el_material *material, el_shading shading)
         return 0;
     }
     const bool dithers = (material->flags & EL_MATERIAL_DITHER) != 0 && el_has_colours(shading);
-    const bool mixes =
-        EL_WITH_MIXED &&
-        (el_is_blended(material) || (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+    const bool mixes = EL_WITH_MIXED && (el_is_blended(material) || material->fog != NULL ||
+                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
     return (uint8_t)((dithers ? EL_FINISH_DITHER : 0) | (mixes ? EL_FINISH_MIXED : 0));
 }
 
-static el_status check(const el_config *config, const el_mesh *mesh, const el_material *material)
+static el_status check(const el_renderer *renderer, const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return EL_ERROR_SIZE;
@@ -326,7 +325,11 @@ static el_status check(const el_config *config, const el_mesh *mesh, const el_ma
         return EL_ERROR_MATERIAL;
     }
     const bool blends_depth = (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
-    if (el_is_blended(material) && (!EL_WITH_MIXED || (blends_depth && config->depth_prepass))) {
+    if (el_is_blended(material) && (!EL_WITH_MIXED || (blends_depth && renderer->config.depth_prepass))) {
+        return EL_ERROR_MATERIAL;
+    }
+    if (material->fog != NULL && (!EL_WITH_MIXED || (material->flags & EL_MATERIAL_NO_DEPTH) != 0 ||
+                                  renderer->view.projection != EL_PERSPECTIVE)) {
         return EL_ERROR_MATERIAL;
     }
     return EL_OK;
@@ -337,7 +340,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const el_status status = check(&renderer->config, mesh, material);
+    const el_status status = check(renderer, mesh, material);
     if (status != EL_OK) {
         return status;
     }

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/hash.h"
+#include "raster/fog.h"
 
 #if EL_WITH_REUSE
 
@@ -86,10 +87,24 @@ static uint32_t hash_texture(uint32_t hash, const el_texture *texture)
     return hash;
 }
 
+static uint32_t hash_fog(uint32_t hash, const el_fog *fog)
+{
+    hash = hash_pointer(hash, fog);
+    if (EL_WITH_MIXED && fog != NULL) {
+        hash = hash_pair(hash, fog->colour, fog->step_log2);
+        hash = el_hash_word(el_hash_word(hash, fog->scale_q12), fog->end);
+        for (unsigned i = 0; i < EL_FOG_STEPS + 2U; i += 2) {
+            hash = hash_pair(hash, fog->alpha_q7[i], fog->alpha_q7[i + 1U]);
+        }
+    }
+    return hash;
+}
+
 static uint32_t hash_material(uint32_t hash, const el_material *material)
 {
     hash = hash_pair(hash, material->shading, material->flags);
     hash = el_hash_word(hash, material->alpha);
+    hash = hash_fog(hash, material->fog);
     hash = el_hash_word(hash, (uint32_t)material->colour[0] << 16 | (uint32_t)material->colour[1] << 8 |
                                   (uint32_t)material->colour[2]);
     hash = hash_pointer(hash, material->texture);

@@ -37,9 +37,9 @@ typedef struct el_texture {
     const uint16_t *texels; /* not looked at where there is an image */
     uint8_t width_log2;
     uint8_t height_log2;
-    uint8_t wrap_u, wrap_v; /* el_wrap */
-    bool smooth;            /* bilinear: the mean of four texels by their centres' distances in sixteenths */
-    const el_image *image;  /* or NULL */
+    uint8_t wrap_u, wrap_v;           /* el_wrap */
+    bool smooth;                      /* bilinear: the mean of four texels by their centres' distances in sixteenths */
+    const el_image *image;            /* or NULL */
     const struct el_texture *smaller; /* or NULL */
 } el_texture;
 

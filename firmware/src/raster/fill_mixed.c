@@ -3,6 +3,7 @@
  * know of it. The walk along texture coordinates is that of fill_texture.c; only what is fetched there is another. */
 #include "base/fixed.h"
 #include "raster/fill.h"
+#include "raster/fog.h"
 #include "raster/sampler.h"
 #include "raster/texel.h"
 #include "raster/texture.h"
@@ -14,9 +15,10 @@
 typedef struct brush {
     unsigned kind;
     uint16_t flat;
-    bool is_tested;    /* texels show or do not */
+    bool is_tested; /* texels show or do not */
     bool writes_depth;
     uint32_t alpha; /* 0..256 */
+    const el_fog *fog;
     el_slopes slopes;
 #if EL_WITH_TEXTURE
     el_sampler sampler;
@@ -33,6 +35,7 @@ static void take_up(brush *b, const el_triangle *triangle)
     b->is_tested = !is_blended;
     b->writes_depth = !is_blended || (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
     b->alpha = material->alpha == 0 ? 256U : el_alpha_256(material->alpha);
+    b->fog = material->fog;
     b->slopes = el_slopes_of(triangle, b->kind);
 #if EL_WITH_TEXTURE
     if ((b->kind & EL_FILL_TEXTURE) != 0) {
@@ -89,6 +92,9 @@ static void draw_pixel(const brush *b, const spot *at, uint16_t *pixel, uint16_t
     }
     if ((b->kind & EL_FILL_DEPTH) != 0 && b->writes_depth) {
         *depth = (uint16_t)z;
+    }
+    if (b->fog != NULL) {
+        colour = el_rgb565_blend(colour, b->fog->colour, el_fog_at(b->fog, z));
     }
     *pixel = shown == 256 ? colour : el_rgb565_blend(*pixel, colour, shown);
 }

@@ -56,6 +56,7 @@ typedef struct el_material {
     const el_texture *texture; /* for the textured shadings */
     const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
     uint8_t alpha;             /* 0 and 255: opaque */
+    const struct el_fog *fog;  /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
 } el_material;
 
 static inline bool el_is_lit(const el_material *material)

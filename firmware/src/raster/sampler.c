@@ -49,8 +49,7 @@ uint32_t el_sampler_at(const el_sampler *sampler, uint32_t u_q16, uint32_t v_q16
 {
     const el_image *const image = &sampler->image;
     if (!sampler->smooth) {
-        return el_image_at(image, (el_image_format)image->format,
-                           el_sampler_place(&sampler->u, (int32_t)u_q16 >> 16),
+        return el_image_at(image, (el_image_format)image->format, el_sampler_place(&sampler->u, (int32_t)u_q16 >> 16),
                            el_sampler_place(&sampler->v, (int32_t)v_q16 >> 16), colour);
     }
     /* From the centre of one texel to that of the next. */
