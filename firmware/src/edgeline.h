@@ -33,6 +33,7 @@
 #include "geometry/detail.h"
 #include "geometry/elm.h"
 #include "geometry/hierarchy.h"
+#include "geometry/lights.h"
 #include "geometry/mesh.h"
 #include "geometry/orbit.h"
 #include "geometry/pose.h"

@@ -207,8 +207,8 @@ static void test_a_triangles_level(void)
         int64_t u[3];
         int64_t v[3];
         const bool is_exact = any_below(&s, 2) == 0;
-        const unsigned more = (unsigned)any_below(&s, 16);
-        const int64_t reach = is_exact ? 20 : 200;
+        const unsigned more = (unsigned)any_below(&s, 18);
+        const int64_t reach = is_exact ? 10 : 200;
         for (unsigned i = 0; i < 3; i++) {
             x[i] = any_between(&s, -reach, reach) * EL_SUBPIXELS;
             y[i] = any_between(&s, -reach, reach) * EL_SUBPIXELS;
