@@ -21,6 +21,7 @@ typedef struct any_mesh {
     uint16_t values[SCENE_TEXELS]; /* of any format */
     uint16_t palette[256];
     uint8_t shown[SCENE_TEXELS];
+    el_fog fog;
     el_light light;
     el_material material;
     el_mesh mesh;
@@ -63,8 +64,8 @@ static inline void fill_mesh(seeded *s, any_mesh *m)
 }
 
 #if EL_WITH_MIXED
-/* Any kind of texture; often blended. */
-static inline void mix_material(any_mesh *m, seeded *s)
+/* Any kind of texture; often blended, or in fog. */
+static inline void mix_material(any_mesh *m, const el_camera *camera, seeded *s)
 {
     m->texture.wrap_u = (uint8_t)any_below(s, 3);
     m->texture.wrap_v = (uint8_t)any_below(s, 3);
@@ -91,6 +92,11 @@ static inline void mix_material(any_mesh *m, seeded *s)
         m->texture.smaller = &m->smaller;
     }
     m->material.alpha = any_below(s, 2) == 0 ? (uint8_t)any_u64(s) : 0;
+    if (any_below(s, 2) == 0 && camera->projection == EL_PERSPECTIVE &&
+        (m->material.flags & EL_MATERIAL_NO_DEPTH) == 0) {
+        TEST_ASSERT_EQUAL_INT(EL_OK, el_fog_linear(&m->fog, camera, 0x1234, EL_UNIT_Q16, 5 * EL_UNIT_Q16));
+        m->material.fog = &m->fog;
+    }
 }
 #endif
 
@@ -127,7 +133,7 @@ static inline void fill_mixed_scene(seeded *s, any_scene *scene)
 #if EL_WITH_MIXED
     for (unsigned i = 0; i < SCENE_MESHES; i++) {
         if (any_below(s, 2) == 0) {
-            mix_material(&scene->meshes[i], s);
+            mix_material(&scene->meshes[i], &scene->camera, s);
         }
     }
 #endif

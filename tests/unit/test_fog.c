@@ -93,6 +93,11 @@ static void test_fog_that_is_refused(void)
     TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_fog_exponential(&fog, &camera, 0, 0));
     TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_fog_linear(&fog, &camera, 0, 2 * EL_UNIT_Q16, 2 * EL_UNIT_Q16));
     TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_fog_linear(&fog, &camera, 0, 0, camera.near_q16));
+    /* One that begins beyond the far plane is none. */
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_fog_linear(&fog, &camera, 0, UINT32_MAX - 1U, UINT32_MAX));
+    TEST_ASSERT_TRUE(el_fog_is_made(&fog));
+    TEST_ASSERT_EQUAL_UINT32(0, el_fog_at(&fog, EL_DEPTH_MAX));
+    TEST_ASSERT_FALSE(el_fog_is_made(&(el_fog){0}));
     camera.projection = EL_ORTHOGRAPHIC;
     camera.height_q16 = EL_UNIT_Q16;
     TEST_ASSERT_EQUAL_INT(EL_ERROR_CAMERA, el_fog_exponential(&fog, &camera, 0, 1));

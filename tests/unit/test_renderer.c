@@ -286,6 +286,7 @@ static void test_without_depth_the_last_one_wins(void)
         fill_mixed_scene(&s, &scene);
         for (unsigned i = 0; i < SCENE_MESHES; i++) {
             scene.meshes[i].material.flags |= EL_MATERIAL_NO_DEPTH | EL_MATERIAL_TWO_SIDED;
+            scene.meshes[i].material.fog = NULL;
         }
         start(&whole, HEIGHT, PLENTY);
         play_scene(&renderer, &scene);

@@ -8,6 +8,7 @@
 #include "frame/drawing.h"
 #include "frame/quiet.h"
 #include "geometry/clip.h"
+#include "raster/fog.h"
 #include "raster/gather.h"
 #include "raster/texture.h"
 
@@ -329,7 +330,7 @@ static el_status check(const el_renderer *renderer, const el_mesh *mesh, const e
         return EL_ERROR_MATERIAL;
     }
     if (material->fog != NULL && (!EL_WITH_MIXED || (material->flags & EL_MATERIAL_NO_DEPTH) != 0 ||
-                                  renderer->view.projection != EL_PERSPECTIVE)) {
+                                  !el_fog_is_made(material->fog) || renderer->view.projection != EL_PERSPECTIVE)) {
         return EL_ERROR_MATERIAL;
     }
     return EL_OK;

@@ -69,11 +69,10 @@ static uint32_t nearness_of(uint32_t place)
 /* The table from where the law is all fog, or from the far plane, to where it is none, or to the near plane. */
 static void make_table(el_fog *fog, const el_view *view, const law *l)
 {
-    const uint32_t begin_q16 = l->begin_q16 > view->near_q16 ? l->begin_q16 : view->near_q16;
-    const uint32_t end_q16 = l->end_q16 < view->far_q16 ? l->end_q16 : view->far_q16;
-    const uint32_t begin = el_fog_place(other_of(view, begin_q16));
+    const uint32_t begin_q16 = el_min_u32(l->begin_q16, view->far_q16);
+    const uint32_t begin = el_fog_place(other_of(view, begin_q16 > view->near_q16 ? begin_q16 : view->near_q16));
     fog->scale_q12 = view->depth_scale_q12;
-    fog->end = el_fog_place(other_of(view, end_q16));
+    fog->end = el_fog_place(other_of(view, el_min_u32(l->end_q16, view->far_q16)));
     fog->step_log2 = 0;
     while (begin > fog->end && (begin - fog->end) >> fog->step_log2 >= EL_FOG_STEPS) {
         fog->step_log2++;

@@ -6,11 +6,13 @@
 #ifndef EL_RASTER_FOG_H
 #define EL_RASTER_FOG_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/fixed.h"
 #include "base/options.h"
 #include "base/status.h"
+#include "geometry/limits.h"
 #include "geometry/pose.h"
 
 #ifdef __cplusplus
@@ -37,12 +39,18 @@ el_status el_fog_exponential(el_fog *fog, const el_camera *camera, uint16_t colo
 
 /* --- For the fills ------------------------------------------------------------------------------------------------------ */
 
-/* log2 of `nearness` > 0, its fraction taken to be linear between powers of two, Q16: a step of the table is a step of
+/* log2 of `nearness`, above 0, its fraction taken to be linear between powers of two, Q16: a step of the table is a step of
  * nearness, from one power to the next. */
 static inline uint32_t el_fog_place(uint32_t nearness)
 {
-    const uint32_t bits = (uint32_t)el_bit_length_u32(nearness);
-    return bits << 16 | ((nearness << (32U - bits)) >> 15 & 0xFFFFU);
+    const uint32_t leading = el_leading_zeros(nearness);
+    return (32U - leading) << 16 | (nearness << leading >> 15 & 0xFFFFU);
+}
+
+/* Whether one of the functions above made it: nearness is above 0 at all depths. */
+static inline bool el_fog_is_made(const el_fog *fog)
+{
+    return fog->scale_q12 > (uint32_t)EL_DEPTH_MAX << 12 && fog->step_log2 <= 16;
 }
 
 /* How much of the fog lies before that depth, 0 to EL_DEPTH_MAX: 0..256. */

@@ -263,7 +263,7 @@ static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, e
 /* With the texture of which the triangle has less than two texels per pixel, in whose texels its coordinates are then. */
 static EL_APART void choose_level(const el_texture *texture, el_corner corners[3], el_surface *surface)
 {
-    const unsigned level = el_mip_level(texture, corners);
+    const int level = (int)el_mip_level(texture, corners);
     for (unsigned i = 0; i < 3; i++) {
         corners[i].u_q16 >>= level;
         corners[i].v_q16 >>= level;
@@ -271,7 +271,7 @@ static EL_APART void choose_level(const el_texture *texture, el_corner corners[3
     if (el_is_mixed(surface)) {
         surface->level = (uint8_t)level;
     } else {
-        surface->texture = el_texture_at_level(texture, level);
+        surface->texture = el_texture_at_level(texture, (unsigned)level);
     }
 }
 #endif

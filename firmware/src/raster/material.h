@@ -53,9 +53,9 @@ typedef struct el_material {
     uint8_t shading;           /* el_shading */
     uint8_t flags;             /* EL_MATERIAL_ */
     uint8_t colour[3];         /* red, green, blue of meshes without colours of their own */
+    uint8_t alpha;             /* 0 and 255: opaque */
     const el_texture *texture; /* for the textured shadings */
     const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
-    uint8_t alpha;             /* 0 and 255: opaque */
     const struct el_fog *fog;  /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
 } el_material;
 
