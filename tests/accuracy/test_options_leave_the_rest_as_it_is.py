@@ -23,11 +23,21 @@ NEEDS = {
     "ORTHOGRAPHIC": {"orthographic"},
     "LIGHT": {"lit", "gouraud-lit"},
     "GOURAUD": {"gouraud", "gouraud-lit", "gouraud-dithered", "textured-gouraud", "textured-gouraud-dithered"},
-    "TEXTURE": {"textured", "textured-gouraud", "textured-gouraud-dithered"},
+    "TEXTURE": {
+        "textured",
+        "textured-gouraud",
+        "textured-gouraud-dithered",
+        "textured-smooth",
+        "textured-smaller",
+    },
+    "MIXED": {"blended", "fogged", "textured-smooth"},
     "DITHER": {"gouraud-dithered", "textured-gouraud-dithered"},
     "OVERDRAW": {"overdraw"},
 }
 FLAT = tuple(NEEDS)
+
+# Small code, but with every way of drawing.
+SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1")
 
 # Name: status, CRC-32 of the frames, pixels counted.
 Drawn = dict[str, tuple[int, str, int]]
@@ -79,7 +89,11 @@ def test_a_mode_is_left_out(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, left_out: tuple[str, ...], small: bool
 ) -> None:
     flags = [f"-DEL_WITH_{option}=0" for option in left_out]
-    drawn = _draw(tmp_path, f"-DEL_SMALL_CODE={int(small)}", *flags)
+    if small:
+        flags = [flag for flag in SMALL if flag[:-1] + "0" not in flags] + flags
+    if "TEXTURE" in left_out:
+        flags = [flag for flag in flags if "MIPMAPS" not in flag] + ["-DEL_WITH_MIPMAPS=0"]
+    drawn = _draw(tmp_path, *flags)
     refused = set().union(*(NEEDS[option] for option in left_out))
     for name, expected in (nothing_hidden if small else everything).items():
         if name not in refused:
@@ -97,16 +111,27 @@ def test_optimised_code_draws_the_same(everything: Drawn, tmp_path: Path, flags:
     assert _draw(tmp_path, *flags) == everything
 
 
-@pytest.mark.parametrize("flag", ["-DEL_SMALL_CODE=1", "-Os"])
-def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flag: str) -> None:
-    assert _draw(tmp_path, flag) == nothing_hidden
+@pytest.mark.parametrize("flags", [SMALL, ("-Os", *SMALL[1:])], ids=["small", "-Os"])
+def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
+    assert _draw(tmp_path, *flags) == nothing_hidden
+
+
+def test_small_code_begins_without_mixing(nothing_hidden: Drawn, tmp_path: Path) -> None:
+    drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1")
+    assert all(drawn[name][0] == ERROR_MATERIAL for name in NEEDS["MIXED"])
+    assert drawn["textured-smaller"] == nothing_hidden["textured"]
+
+
+def test_without_smaller_textures_the_largest_is_used(everything: Drawn, tmp_path: Path) -> None:
+    drawn = _draw(tmp_path, "-DEL_WITH_MIPMAPS=0")
+    assert drawn == everything | {"textured-smaller": everything["textured"]}
 
 
 @pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE"])
 def test_small_code_takes_what_it_begins_without(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, option: str
 ) -> None:
-    drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1", f"-DEL_WITH_{option}=1")
+    drawn = _draw(tmp_path, *SMALL, f"-DEL_WITH_{option}=1")
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 

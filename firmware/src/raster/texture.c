@@ -28,10 +28,12 @@ static bool is_good_alone(const el_texture *texture)
     return texture->wrap_u <= EL_WRAP_MIRROR && texture->wrap_v <= EL_WRAP_MIRROR;
 }
 
+#if EL_WITH_MIPMAPS
 static bool is_half(uint32_t smaller, uint32_t size)
 {
     return 2U * smaller == size || (smaller == 1 && size == 1);
 }
+#endif
 
 bool el_texture_is_good(const el_texture *texture)
 {
