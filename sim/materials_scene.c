@@ -2,6 +2,8 @@
 
 #include "demo/meshes/teapot.h"
 
+#if EL_HAS_MATERIALS_SCENE
+
 #define TENTHS_Q16(n) ((n)*65536 / 10)
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -313,3 +315,4 @@ static el_status draw(uint32_t frame, el_renderer *renderer)
 
 const el_scene el_materials_scene = {
     "materials", "textures, lamps, fog and alpha side by side", SKY, place_camera, draw, NULL};
+#endif

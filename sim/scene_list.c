@@ -6,7 +6,7 @@
 
 size_t el_scene_count(void)
 {
-    return el_demo_scene_count + el_bench_scene_count + 1;
+    return el_demo_scene_count + el_bench_scene_count + EL_HAS_MATERIALS_SCENE;
 }
 
 const el_scene *el_scene_at(size_t index)
@@ -15,5 +15,10 @@ const el_scene *el_scene_at(size_t index)
         return el_demo_scenes[index];
     }
     index -= el_demo_scene_count;
-    return index < el_bench_scene_count ? &el_bench_scenes[index] : &el_materials_scene;
+#if EL_HAS_MATERIALS_SCENE
+    if (index == el_bench_scene_count) {
+        return &el_materials_scene;
+    }
+#endif
+    return &el_bench_scenes[index];
 }

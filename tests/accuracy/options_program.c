@@ -150,20 +150,16 @@ int main(void)
     material.flags |= EL_MATERIAL_DITHER;
     draw("textured-gouraud-dithered", EL_PERSPECTIVE, &material);
     material = plain;
+#if EL_WITH_MIXED
     material.alpha = 90;
     draw("blended", EL_PERSPECTIVE, &material);
     material.alpha = 0;
-#if EL_WITH_MIXED
     static el_fog fog;
     const el_camera camera = camera_of(EL_PERSPECTIVE);
     if (el_fog_exponential(&fog, &camera, 0xFFFF, EL_UNIT_Q16 / 4) != EL_OK) {
         return 1;
     }
     material.fog = &fog;
-#else
-    static const el_fog no_fog;
-    material.fog = &no_fog;
-#endif
     draw("fogged", EL_PERSPECTIVE, &material);
     material = plain;
     material.shading = EL_SHADE_TEXTURED;
@@ -171,11 +167,16 @@ int main(void)
         .texels = texels, .width_log2 = 4, .height_log2 = 4, .wrap_u = EL_WRAP_MIRROR, .smooth = true};
     material.texture = &smooth;
     draw("textured-smooth", EL_PERSPECTIVE, &material);
+    material = plain;
+#endif
+#if EL_WITH_MIPMAPS
+    material.shading = EL_SHADE_TEXTURED;
     const el_texture smaller = {.texels = texels + 7, .width_log2 = 3, .height_log2 = 3};
     const el_texture larger = {.texels = texels, .width_log2 = 4, .height_log2 = 4, .smaller = &smaller};
     material.texture = &larger;
     draw("textured-smaller", EL_PERSPECTIVE, &material);
     material = plain;
+#endif
     material.shading = EL_SHADE_OVERDRAW;
     draw("overdraw", EL_PERSPECTIVE, &material);
     return 0;

@@ -87,9 +87,11 @@ static inline void mix_material(any_mesh *m, const el_camera *camera, seeded *s)
     }
     if (any_below(s, 2) == 0) {
         m->texture.image = &m->image;
+#if EL_WITH_MIPMAPS
     } else if (any_below(s, 2) == 0) {
         m->smaller = (el_texture){.texels = m->texels, .width_log2 = 2, .height_log2 = 2};
         m->texture.smaller = &m->smaller;
+#endif
     }
     m->material.alpha = any_below(s, 2) == 0 ? (uint8_t)any_u64(s) : 0;
     if (any_below(s, 2) == 0 && camera->projection == EL_PERSPECTIVE &&

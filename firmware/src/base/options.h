@@ -3,7 +3,8 @@
  *
  * Set them by -DEL_WITH_TEXTURE=0, by CMake's EDGELINE_WITH_TEXTURE=OFF, or in a header of your own that EL_CONFIG_FILE
  * names, quotes included: -DEL_CONFIG_FILE='"edgeline_config.h"'. The library and the program that uses it are compiled
- * with the same options. A draw or a camera that asks for what was left out gets an error and draws nothing. */
+ * with the same options. A draw or a camera that asks for what was left out gets an error and draws nothing; a member that
+ * was left out does not compile. */
 #ifndef EL_BASE_OPTIONS_H
 #define EL_BASE_OPTIONS_H
 
@@ -102,12 +103,12 @@
 #endif
 
 /* What is mixed from more than one colour per pixel, and textures of any kind (el_material.alpha, .fog; el_texture.image,
- * .wrap_u, .wrap_v, .smooth). Without, which is what small code begins with: EL_ERROR_MATERIAL. */
+ * .wrap_u, .wrap_v, .smooth). Without, which is what small code begins with, there are no such members. */
 #ifndef EL_WITH_MIXED
 #define EL_WITH_MIXED (!EL_SMALL_CODE)
 #endif
 
-/* el_texture.smaller. Without, which is what small code begins with: the largest is used. */
+/* el_texture.smaller. Without, which is what small code begins with, there is no such member. */
 #ifndef EL_WITH_MIPMAPS
 #define EL_WITH_MIPMAPS (!EL_SMALL_CODE && EL_WITH_TEXTURE)
 #endif

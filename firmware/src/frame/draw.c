@@ -299,16 +299,31 @@ enum {
 /* EL_FINISH_ of its surfaces, as it is shaded. */
 static uint8_t finish_of(const el_material *material, el_shading shading)
 {
-    if (shading == EL_SHADE_OVERDRAW) {
-        return 0;
+    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+    unsigned finish = (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
+#if EL_WITH_MIXED
+    if (shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
+                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)))) {
+        finish |= EL_FINISH_MIXED;
     }
-    const bool dithers = (material->flags & EL_MATERIAL_DITHER) != 0 && el_has_colours(shading);
-    const bool mixes = EL_WITH_MIXED && (el_is_blended(material) || material->fog != NULL ||
-                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
-    return (uint8_t)((dithers ? EL_FINISH_DITHER : 0) | (mixes ? EL_FINISH_MIXED : 0));
+#endif
+    return (uint8_t)finish;
 }
 
-static el_status check(const el_renderer *renderer, const el_mesh *mesh, const el_material *material)
+#if EL_WITH_MIXED
+/* Of a material that is good otherwise: whether what it is to be mixed with can be. */
+static bool can_mix(const el_renderer *renderer, const el_material *material)
+{
+    if (material->fog != NULL && ((material->flags & EL_MATERIAL_NO_DEPTH) != 0 || !el_fog_is_made(material->fog) ||
+                                  renderer->view.projection != EL_PERSPECTIVE)) {
+        return false;
+    }
+    return !el_is_blended(material) || (material->flags & EL_MATERIAL_BLEND_DEPTH) == 0 ||
+           !renderer->config.depth_prepass;
+}
+#endif
+
+static el_status check(const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return EL_ERROR_SIZE;
@@ -325,14 +340,6 @@ static el_status check(const el_renderer *renderer, const el_mesh *mesh, const e
         (el_is_lit(material) && mesh->normals == NULL)) {
         return EL_ERROR_MATERIAL;
     }
-    const bool blends_depth = (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
-    if (el_is_blended(material) && (!EL_WITH_MIXED || (blends_depth && renderer->config.depth_prepass))) {
-        return EL_ERROR_MATERIAL;
-    }
-    if (material->fog != NULL && (!EL_WITH_MIXED || (material->flags & EL_MATERIAL_NO_DEPTH) != 0 ||
-                                  !el_fog_is_made(material->fog) || renderer->view.projection != EL_PERSPECTIVE)) {
-        return EL_ERROR_MATERIAL;
-    }
     return EL_OK;
 }
 
@@ -341,10 +348,15 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const el_status status = check(renderer, mesh, material);
+    const el_status status = check(mesh, material);
     if (status != EL_OK) {
         return status;
     }
+#if EL_WITH_MIXED
+    if (!can_mix(renderer, material)) {
+        return EL_ERROR_MATERIAL;
+    }
+#endif
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);

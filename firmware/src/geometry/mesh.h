@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/image.h"
+#include "base/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,10 +38,14 @@ typedef struct el_texture {
     const uint16_t *texels; /* not looked at where there is an image */
     uint8_t width_log2;
     uint8_t height_log2;
-    uint8_t wrap_u, wrap_v;           /* el_wrap */
-    bool smooth;                      /* bilinear: the mean of four texels by their centres' distances in sixteenths */
-    const el_image *image;            /* or NULL */
+#if EL_WITH_MIXED
+    uint8_t wrap_u, wrap_v; /* el_wrap */
+    bool smooth;            /* bilinear: the mean of four texels by their centres' distances in sixteenths */
+    const el_image *image;  /* or NULL */
+#endif
+#if EL_WITH_MIPMAPS
     const struct el_texture *smaller; /* or NULL */
+#endif
 } el_texture;
 
 /* A part of a mesh that can be skipped whole: triangles that follow each other, a sphere around them and a cone around

@@ -50,13 +50,17 @@ typedef struct el_light {
  * depth as it is. So draw opaque things first, and then what is blended from the back to the front: within a mesh its
  * triangles are drawn in their order, and meshes in the order of submission, whatever bands, passes and arenas there are. */
 typedef struct el_material {
-    uint8_t shading;           /* el_shading */
-    uint8_t flags;             /* EL_MATERIAL_ */
-    uint8_t colour[3];         /* red, green, blue of meshes without colours of their own */
-    uint8_t alpha;             /* 0 and 255: opaque */
+    uint8_t shading;   /* el_shading */
+    uint8_t flags;     /* EL_MATERIAL_ */
+    uint8_t colour[3]; /* red, green, blue of meshes without colours of their own */
+#if EL_WITH_MIXED
+    uint8_t alpha; /* 0 and 255: opaque */
+#endif
     const el_texture *texture; /* for the textured shadings */
     const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
-    const struct el_fog *fog;  /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
+#if EL_WITH_MIXED
+    const struct el_fog *fog; /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
+#endif
 } el_material;
 
 static inline bool el_is_lit(const el_material *material)
@@ -64,6 +68,7 @@ static inline bool el_is_lit(const el_material *material)
     return EL_WITH_LIGHT && material->light != NULL;
 }
 
+#if EL_WITH_MIXED
 /* Whether what is drawn is mixed with what is there. */
 static inline bool el_is_blended(const el_material *material)
 {
@@ -73,5 +78,6 @@ static inline bool el_is_blended(const el_material *material)
     return el_has_texture((el_shading)material->shading) && material->texture->image != NULL &&
            material->texture->image->alpha != NULL;
 }
+#endif
 
 #endif

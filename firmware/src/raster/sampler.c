@@ -22,17 +22,24 @@ static void make_axis(el_sampler_axis *axis, uint32_t size, uint8_t wrap)
 
 void el_sampler_make(el_sampler *sampler, const el_texture *texture)
 {
+    *sampler = (el_sampler){
+        .image = {.width = (uint16_t)el_texture_width(texture),
+                  .height = (uint16_t)el_texture_height(texture),
+                  .format = EL_IMAGE_RGB565,
+                  .pixels = texture->texels},
+    };
+    uint8_t wrap_u = EL_WRAP_REPEAT;
+    uint8_t wrap_v = EL_WRAP_REPEAT;
+#if EL_WITH_MIXED
     if (texture->image != NULL) {
         sampler->image = *texture->image;
-    } else {
-        sampler->image = (el_image){.width = (uint16_t)el_texture_width(texture),
-                                    .height = (uint16_t)el_texture_height(texture),
-                                    .format = EL_IMAGE_RGB565,
-                                    .pixels = texture->texels};
     }
-    make_axis(&sampler->u, sampler->image.width, texture->wrap_u);
-    make_axis(&sampler->v, sampler->image.height, texture->wrap_v);
+    wrap_u = texture->wrap_u;
+    wrap_v = texture->wrap_v;
     sampler->smooth = texture->smooth;
+#endif
+    make_axis(&sampler->u, sampler->image.width, wrap_u);
+    make_axis(&sampler->v, sampler->image.height, wrap_v);
 }
 
 uint32_t el_sampler_place(const el_sampler_axis *axis, int32_t at)

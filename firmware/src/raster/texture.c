@@ -2,6 +2,9 @@
 
 #include "base/fixed.h"
 
+#if EL_WITH_MIXED || EL_WITH_MIPMAPS
+
+#if EL_WITH_MIXED
 /* Rows begin with a byte, and so do values of 16 bits with an even address, which the caller sees to. */
 static bool image_is_good(const el_image *image)
 {
@@ -10,23 +13,17 @@ static bool image_is_good(const el_image *image)
            (image->format == EL_IMAGE_RGB565 || image->palette != NULL);
 }
 
-static bool is_plain(const el_texture *texture)
-{
-    return texture->image == NULL && texture->wrap_u == EL_WRAP_REPEAT && texture->wrap_v == EL_WRAP_REPEAT &&
-           !texture->smooth;
-}
-
 static bool is_good_alone(const el_texture *texture)
 {
-    if (!EL_WITH_MIXED && !is_plain(texture)) {
-        return false;
-    }
-    if (texture->image != NULL ? !image_is_good(texture->image)
-                               : texture->texels == NULL || texture->width_log2 > 10 || texture->height_log2 > 10) {
-        return false;
-    }
-    return texture->wrap_u <= EL_WRAP_MIRROR && texture->wrap_v <= EL_WRAP_MIRROR;
+    const bool has_texels = texture->image != NULL ? image_is_good(texture->image) : el_texture_has_texels(texture);
+    return has_texels && texture->wrap_u <= EL_WRAP_MIRROR && texture->wrap_v <= EL_WRAP_MIRROR;
 }
+#else
+static bool is_good_alone(const el_texture *texture)
+{
+    return el_texture_has_texels(texture);
+}
+#endif
 
 #if EL_WITH_MIPMAPS
 static bool is_half(uint32_t smaller, uint32_t size)
@@ -58,10 +55,10 @@ bool el_texture_is_good(const el_texture *texture)
 bool el_texture_is_mixed(const el_texture *texture)
 {
 #if EL_WITH_MIPMAPS
-    for (; texture->smaller != NULL && is_plain(texture); texture = texture->smaller) {
+    for (; texture->smaller != NULL && el_texture_is_plain(texture); texture = texture->smaller) {
     }
 #endif
-    return !is_plain(texture);
+    return !el_texture_is_plain(texture);
 }
 
 #if EL_WITH_MIPMAPS
@@ -86,4 +83,5 @@ unsigned el_mip_level(const el_texture *texture, const el_corner corners[3])
     }
     return level;
 }
+#endif
 #endif
