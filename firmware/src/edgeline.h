@@ -33,10 +33,12 @@
 #include "geometry/detail.h"
 #include "geometry/elm.h"
 #include "geometry/hierarchy.h"
+#include "geometry/lights.h"
 #include "geometry/mesh.h"
 #include "geometry/orbit.h"
 #include "geometry/pose.h"
 #include "geometry/quaternion.h"
+#include "raster/fog.h"
 #include "raster/material.h"
 #include "scene/instances.h"
 

@@ -84,6 +84,16 @@ static void sink_end(void *context, const el_stats *stats)
     (void)stats;
 }
 
+static el_camera camera_of(el_projection projection)
+{
+    return (el_camera){.projection = projection,
+                       .fov_y = EL_DEGREES(70, 1),
+                       .height_q16 = 8 * EL_UNIT_Q16,
+                       .near_q16 = EL_UNIT_Q16 / 8,
+                       .far_q16 = 5 * EL_UNIT_Q16,
+                       .axes_q30 = {{EL_UNIT_Q30, 0, 0}, {0, EL_UNIT_Q30, 0}, {0, 0, EL_UNIT_Q30}}};
+}
+
 static void draw(const char *name, el_projection projection, const el_material *material)
 {
     static el_renderer renderer;
@@ -96,12 +106,7 @@ static void draw(const char *name, el_projection projection, const el_material *
                                                  .memory = memory,
                                                  .memory_bytes = sizeof memory,
                                                  .sinks = {&sink}});
-    el_camera camera = {.projection = projection,
-                        .fov_y = EL_DEGREES(70, 1),
-                        .height_q16 = 8 * EL_UNIT_Q16,
-                        .near_q16 = EL_UNIT_Q16 / 8,
-                        .far_q16 = 5 * EL_UNIT_Q16,
-                        .axes_q30 = {{EL_UNIT_Q30, 0, 0}, {0, EL_UNIT_Q30, 0}, {0, 0, EL_UNIT_Q30}}};
+    const el_camera camera = camera_of(projection);
     for (unsigned frame = 0; frame < FRAMES && status == EL_OK; frame++) {
         el_pose pose = el_pose_identity();
         el_pose_turn(&pose, EL_AXIS_Y, frame * EL_DEGREES(40, 1));
@@ -145,6 +150,33 @@ int main(void)
     material.flags |= EL_MATERIAL_DITHER;
     draw("textured-gouraud-dithered", EL_PERSPECTIVE, &material);
     material = plain;
+#if EL_WITH_MIXED
+    material.alpha = 90;
+    draw("blended", EL_PERSPECTIVE, &material);
+    material.alpha = 0;
+    static el_fog fog;
+    const el_camera camera = camera_of(EL_PERSPECTIVE);
+    if (el_fog_exponential(&fog, &camera, 0xFFFF, EL_UNIT_Q16 / 4) != EL_OK) {
+        return 1;
+    }
+    material.fog = &fog;
+    draw("fogged", EL_PERSPECTIVE, &material);
+    material = plain;
+    material.shading = EL_SHADE_TEXTURED;
+    const el_texture smooth = {
+        .texels = texels, .width_log2 = 4, .height_log2 = 4, .wrap_u = EL_WRAP_MIRROR, .smooth = true};
+    material.texture = &smooth;
+    draw("textured-smooth", EL_PERSPECTIVE, &material);
+    material = plain;
+#endif
+#if EL_WITH_MIPMAPS
+    material.shading = EL_SHADE_TEXTURED;
+    const el_texture smaller = {.texels = texels + 7, .width_log2 = 3, .height_log2 = 3};
+    const el_texture larger = {.texels = texels, .width_log2 = 4, .height_log2 = 4, .smaller = &smaller};
+    material.texture = &larger;
+    draw("textured-smaller", EL_PERSPECTIVE, &material);
+    material = plain;
+#endif
     material.shading = EL_SHADE_OVERDRAW;
     draw("overdraw", EL_PERSPECTIVE, &material);
     return 0;

@@ -23,11 +23,23 @@ NEEDS = {
     "ORTHOGRAPHIC": {"orthographic"},
     "LIGHT": {"lit", "gouraud-lit"},
     "GOURAUD": {"gouraud", "gouraud-lit", "gouraud-dithered", "textured-gouraud", "textured-gouraud-dithered"},
-    "TEXTURE": {"textured", "textured-gouraud", "textured-gouraud-dithered"},
+    "TEXTURE": {
+        "textured",
+        "textured-gouraud",
+        "textured-gouraud-dithered",
+        "textured-smooth",
+    },
     "DITHER": {"gouraud-dithered", "textured-gouraud-dithered"},
     "OVERDRAW": {"overdraw"},
 }
 FLAT = tuple(NEEDS)
+
+# Ways that do not compile without the option: what they set is no member then.
+MIXED = {"blended", "fogged", "textured-smooth"}
+MIPMAPS = {"textured-smaller"}
+
+# Small code, but with every way of drawing.
+SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1")
 
 # Name: status, CRC-32 of the frames, pixels counted.
 Drawn = dict[str, tuple[int, str, int]]
@@ -79,10 +91,18 @@ def test_a_mode_is_left_out(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, left_out: tuple[str, ...], small: bool
 ) -> None:
     flags = [f"-DEL_WITH_{option}=0" for option in left_out]
-    drawn = _draw(tmp_path, f"-DEL_SMALL_CODE={int(small)}", *flags)
+    if small:
+        flags = [*SMALL, *flags]
+    unknown: set[str] = set()
+    if "TEXTURE" in left_out:
+        flags = [flag for flag in flags if "MIPMAPS" not in flag] + ["-DEL_WITH_MIPMAPS=0"]
+        unknown = MIPMAPS
+    drawn = _draw(tmp_path, *flags)
     refused = set().union(*(NEEDS[option] for option in left_out))
     for name, expected in (nothing_hidden if small else everything).items():
-        if name not in refused:
+        if name in unknown:
+            assert name not in drawn
+        elif name not in refused:
             assert drawn[name] == expected, name
         elif name == "orthographic":
             assert drawn[name] == (ERROR_CAMERA, NOTHING, 0)
@@ -97,16 +117,27 @@ def test_optimised_code_draws_the_same(everything: Drawn, tmp_path: Path, flags:
     assert _draw(tmp_path, *flags) == everything
 
 
-@pytest.mark.parametrize("flag", ["-DEL_SMALL_CODE=1", "-Os"])
-def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flag: str) -> None:
-    assert _draw(tmp_path, flag) == nothing_hidden
+@pytest.mark.parametrize("flags", [SMALL, ("-Os", *SMALL[1:])], ids=["small", "-Os"])
+def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flags: tuple[str, ...]) -> None:
+    assert _draw(tmp_path, *flags) == nothing_hidden
+
+
+def test_small_code_begins_without_mixing(nothing_hidden: Drawn, tmp_path: Path) -> None:
+    drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1")
+    assert drawn == {name: way for name, way in nothing_hidden.items() if name not in MIXED | MIPMAPS}
+
+
+@pytest.mark.parametrize(("option", "ways"), [("MIXED", MIXED), ("MIPMAPS", MIPMAPS)])
+def test_without_members_the_rest_is_drawn(everything: Drawn, tmp_path: Path, option: str, ways: set[str]) -> None:
+    drawn = _draw(tmp_path, f"-DEL_WITH_{option}=0")
+    assert drawn == {name: way for name, way in everything.items() if name not in ways}
 
 
 @pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE"])
 def test_small_code_takes_what_it_begins_without(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, option: str
 ) -> None:
-    drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1", f"-DEL_WITH_{option}=1")
+    drawn = _draw(tmp_path, *SMALL, f"-DEL_WITH_{option}=1")
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 

@@ -3,7 +3,7 @@
  * lie. Whatever is drawn must be the same in other bands and another arena, and so must each call's answer. */
 #include "picture.h"
 
-enum { MAX_DRAWS = 4, MAX_VERTICES = 24, MAX_TRIANGLES = 32, TEXELS = 1024 };
+enum { MAX_DRAWS = 4, MAX_VERTICES = 24, MAX_TRIANGLES = 32, SIDE = 32, TEXELS = SIDE * SIDE };
 
 typedef struct item {
     int16_t positions[MAX_VERTICES][3];
@@ -14,8 +14,10 @@ typedef struct item {
     int16_t uvs[MAX_VERTICES][2];
     el_mesh mesh;
     el_pose pose;
-    el_texture texture;
+    el_texture texture, smaller;
+    el_image image;
     el_light light;
+    el_fog fog;
     el_material material;
 } item;
 
@@ -90,6 +92,38 @@ static void take_mesh(input *in, item *t)
     }
 }
 
+/* What one loop draws for all: pictures of any format within the texels, borders, a chain, alpha, fog. */
+static void take_mixed(input *in, const scene *s, item *t)
+{
+    const uint8_t kind = take_u8(in);
+    t->texture.wrap_u = take_u8(in) % (EL_WRAP_MIRROR + 2);
+    t->texture.wrap_v = take_u8(in) % (EL_WRAP_MIRROR + 1);
+    t->texture.smooth = (kind & 1) != 0;
+    if ((kind & 2) != 0) {
+        t->image = (el_image){.width = take_u8(in) % (SIDE + 1),
+                              .height = take_u8(in) % (SIDE + 1),
+                              .format = take_u8(in) % (EL_IMAGE_MASK + 2),
+                              .has_key = (kind & 4) != 0,
+                              .key = take_u8(in),
+                              .pixels = s->texels,
+                              .palette = s->texels,
+                              .alpha = (kind & 8) != 0 ? (const uint8_t *)s->texels : NULL};
+        t->texture.image = &t->image;
+    }
+    if ((kind & 16) != 0) {
+        const uint8_t sides = take_u8(in);
+        t->smaller = (el_texture){.texels = s->texels, .width_log2 = sides % 6, .height_log2 = (sides >> 4) % 6};
+        t->texture.smaller = &t->smaller;
+    }
+    if ((kind & 32) != 0) {
+        t->material.alpha = take_u8(in);
+    }
+    if ((kind & 64) != 0 &&
+        el_fog_linear(&t->fog, &s->camera, 0x8410, (uint32_t)take_u8(in) << 12, (uint32_t)take_u8(in) << 14) == EL_OK) {
+        t->material.fog = &t->fog;
+    }
+}
+
 static void take_material(input *in, const scene *s, item *t)
 {
     const uint8_t kind = take_u8(in);
@@ -105,6 +139,9 @@ static void take_material(input *in, const scene *s, item *t)
         t->light.ambient = take_u8(in);
         t->light.diffuse = take_u8(in);
         t->material.light = &t->light;
+    }
+    if ((kind & 4) != 0) {
+        take_mixed(in, s, t);
     }
 }
 

@@ -73,6 +73,7 @@ class Machine(Arithmetic):
     functions: list[str] = field(default_factory=list)
     locals: dict[str, Number] = field(default_factory=dict)  # the last value of each local, by "function.name"
     _globals: dict[str, Cell] = field(default_factory=dict)
+    _inside: list[str] = field(default_factory=list)  # structs whose members' types are being looked up
 
     # --- making inputs ---
 
@@ -133,7 +134,14 @@ class Machine(Arithmetic):
         if isinstance(node, (c_ast.Struct, c_ast.Union)):
             # A union's members lie apart here: reading one that was not written is an error.
             decls = node.decls if node.decls is not None else self.unit.structs[node.name].decls
-            return StructType(node.name or "", tuple((decl.name, self.type_of(decl.type)) for decl in decls))
+            self._inside.append(node.name)
+            fields: list[tuple[str, Any]] = []
+            for decl in decls:
+                kind = self.type_of(decl.type)
+                # What an anonymous member has are the struct's own.
+                fields += [(decl.name, kind)] if decl.name is not None else kind.fields
+            self._inside.pop()
+            return StructType(node.name or "", tuple(fields))
         if isinstance(node, c_ast.Enum):
             return UINT
         if isinstance(node, c_ast.ArrayDecl):
@@ -148,7 +156,10 @@ class Machine(Arithmetic):
             return True
         while isinstance(node, (c_ast.TypeDecl, c_ast.ArrayDecl, c_ast.PtrDecl)):
             node = node.type
-        return isinstance(node, c_ast.Struct) and node.decls is None and node.name not in self.unit.structs
+        if not isinstance(node, c_ast.Struct) or node.decls is not None:
+            return False
+        # One that points to itself would have no end.
+        return node.name in self._inside or node.name not in self.unit.structs
 
     def constant(self, node: c_ast.Node) -> int:
         value = self.evaluate(node).poly.constant

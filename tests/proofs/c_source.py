@@ -52,6 +52,7 @@ HEADERS = {
 DIVISION = ["base/divide.c", "base/reciprocals.c"]
 
 # What a unit calls in others, so that its functions can be linked; what those call in turn need not be named.
+MIXED = ["raster/fill_mixed.c", "raster/sampler.c", "raster/texture.c", "base/image.c"]
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
@@ -80,12 +81,12 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/tiny_triangle.c": ["raster/gather.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/fill.c": [
         *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),
-        *("raster/depth_row.c", "raster/gather.c"),
-        *("raster/texture_walk.c", "base/reciprocals.c"),
+        "raster/depth_row.c",
+        *("raster/texture_walk.c", "base/reciprocals.c", "raster/gather.c", *MIXED),
         *DIVISION,
     ],
-    "raster/fill_texture.c": ["raster/spans.c", "raster/depth_row.c", "raster/texture_walk.c", *DIVISION],
-    "raster/gather.c": ["geometry/vertex.c", "base/fixed.c", *DIVISION],
+    "raster/fill_texture.c": ["raster/spans.c", "raster/depth_row.c", "raster/texture_walk.c", *MIXED, *DIVISION],
+    "raster/gather.c": ["raster/texture.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
 }
 
 

@@ -1,5 +1,5 @@
-/* Seeded scenes for the renderer's tests: a few draws of random meshes, with every shading, triangles that reach behind
- * the camera, back faces, and draws without depth among those with it. */
+/* Seeded scenes for the renderer's tests: a few draws of random meshes, with every shading and kind of texture, some of them
+ * blended, triangles that reach behind the camera, back faces, and draws without depth among those with it. */
 #ifndef EL_TEST_ANY_SCENE_H
 #define EL_TEST_ANY_SCENE_H
 
@@ -16,6 +16,12 @@ typedef struct any_mesh {
     int16_t uvs[SCENE_VERTICES][2];
     uint16_t texels[SCENE_TEXELS];
     el_texture texture;
+    el_texture smaller;
+    el_image image;
+    uint16_t values[SCENE_TEXELS]; /* of any format */
+    uint16_t palette[256];
+    uint8_t shown[SCENE_TEXELS];
+    el_fog fog;
     el_light light;
     el_material material;
     el_mesh mesh;
@@ -57,6 +63,45 @@ static inline void fill_mesh(seeded *s, any_mesh *m)
                         .radius = 1733};
 }
 
+#if EL_WITH_MIXED
+/* Any kind of texture; often blended, or in fog. */
+static inline void mix_material(any_mesh *m, const el_camera *camera, seeded *s)
+{
+    m->texture.wrap_u = (uint8_t)any_below(s, 3);
+    m->texture.wrap_v = (uint8_t)any_below(s, 3);
+    m->texture.smooth = any_below(s, 2) == 0;
+    m->image = (el_image){.width = (uint16_t)(2U * any_between(s, 1, 4)),
+                          .height = (uint16_t)(2U * any_between(s, 1, 4)),
+                          .format = (uint8_t)any_below(s, EL_IMAGE_MASK + 1),
+                          .has_key = any_below(s, 2) == 0,
+                          .key = (uint16_t)any_below(s, 2),
+                          .pixels = m->values,
+                          .palette = m->palette,
+                          .alpha = any_below(s, 3) == 0 ? m->shown : NULL};
+    for (unsigned i = 0; i < SCENE_TEXELS; i++) {
+        m->shown[i] = (uint8_t)any_u64(s);
+        m->values[i] = (uint16_t)any_u64(s);
+    }
+    for (unsigned i = 0; i < 256; i++) {
+        m->palette[i] = (uint16_t)any_u64(s);
+    }
+    if (any_below(s, 2) == 0) {
+        m->texture.image = &m->image;
+#if EL_WITH_MIPMAPS
+    } else if (any_below(s, 2) == 0) {
+        m->smaller = (el_texture){.texels = m->texels, .width_log2 = 2, .height_log2 = 2};
+        m->texture.smaller = &m->smaller;
+#endif
+    }
+    m->material.alpha = any_below(s, 2) == 0 ? (uint8_t)any_u64(s) : 0;
+    if (any_below(s, 2) == 0 && camera->projection == EL_PERSPECTIVE &&
+        (m->material.flags & EL_MATERIAL_NO_DEPTH) == 0) {
+        TEST_ASSERT_EQUAL_INT(EL_OK, el_fog_linear(&m->fog, camera, 0x1234, EL_UNIT_Q16, 5 * EL_UNIT_Q16));
+        m->material.fog = &m->fog;
+    }
+}
+#endif
+
 /* A cloud of about 8 units around the origin, seen from its edge: much of it is behind the camera. */
 static inline void fill_scene(seeded *s, any_scene *scene)
 {
@@ -81,6 +126,19 @@ static inline void fill_scene(seeded *s, any_scene *scene)
                                 .near_q16 = EL_UNIT_Q16 / 4,
                                 .far_q16 = (uint32_t)any_between(s, 6, 30) * EL_UNIT_Q16};
     TEST_ASSERT_EQUAL_INT(EL_OK, el_camera_look_at(&scene->camera, eye, target, up));
+}
+
+/* The same, where half of the materials are drawn by el_fill_mixed. */
+static inline void fill_mixed_scene(seeded *s, any_scene *scene)
+{
+    fill_scene(s, scene);
+#if EL_WITH_MIXED
+    for (unsigned i = 0; i < SCENE_MESHES; i++) {
+        if (any_below(s, 2) == 0) {
+            mix_material(&scene->meshes[i], &scene->camera, s);
+        }
+    }
+#endif
 }
 
 /* Draws the frame in as many passes as it takes. */

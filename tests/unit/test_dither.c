@@ -21,7 +21,7 @@ static void draw(uint16_t *pixels, const uint16_t rgb_q8[3], int32_t y, const el
 {
     const el_surface surface = {
         .shading = texture != NULL ? EL_SHADE_TEXTURED_GOURAUD : EL_SHADE_GOURAUD,
-        .dither = true,
+        .finish = EL_FINISH_DITHER,
         .uv_error_log2 = 3,
         .texture = texture,
     };

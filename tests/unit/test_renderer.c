@@ -84,7 +84,7 @@ static void unshare(seeded *s, any_mesh *m)
 static void draw_whole(seeded *s)
 {
     memset(&whole, 0, sizeof whole);
-    fill_scene(s, &scene);
+    fill_mixed_scene(s, &scene);
     for (unsigned i = 0; i < SCENE_MESHES && unshared; i++) {
         unshare(s, &scene.meshes[i]);
     }
@@ -283,9 +283,10 @@ static void test_without_depth_the_last_one_wins(void)
     for (seeded s = seeded_from(67); s.round < PART_OF(20); s.round++) {
         reached sums = {0};
         memset(&whole, 0, sizeof whole);
-        fill_scene(&s, &scene);
+        fill_mixed_scene(&s, &scene);
         for (unsigned i = 0; i < SCENE_MESHES; i++) {
             scene.meshes[i].material.flags |= EL_MATERIAL_NO_DEPTH | EL_MATERIAL_TWO_SIDED;
+            scene.meshes[i].material.fog = NULL;
         }
         start(&whole, HEIGHT, PLENTY);
         play_scene(&renderer, &scene);

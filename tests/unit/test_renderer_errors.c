@@ -320,6 +320,76 @@ static void test_the_promised_memory_takes_one_pass_for_many_draws(void)
     }
 }
 
+#if EL_WITH_MIXED
+/* Nothing is drawn with what cannot be. */
+static void expect_material(const el_material *material, el_status status)
+{
+    static const int16_t uvs[4][2] = {{0, 0}, {16, 0}, {16, 16}, {0, 16}};
+    el_mesh mesh = quad;
+    mesh.uvs = uvs;
+    const el_pose pose = el_pose_identity();
+    expect_init(EL_OK);
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_frame_begin(&renderer, &camera));
+    TEST_ASSERT_EQUAL_INT(status, el_draw(&renderer, &mesh, &pose, material));
+    TEST_ASSERT_EQUAL_INT(0, el_frame_next(&renderer));
+}
+
+static void test_materials_that_are_mixed(void)
+{
+    static const uint16_t texel = 0;
+    const el_image one = {.width = 1, .height = 1, .pixels = &texel, .palette = &texel};
+    el_image image = one;
+    el_texture texture = {.image = &image};
+    el_material material = {.shading = EL_SHADE_TEXTURED, .texture = &texture};
+    expect_material(&material, EL_OK);
+    static const el_image bad[] = {
+        {.width = 0, .height = 1, .pixels = &texel},
+        {.width = 1, .height = 0, .pixels = &texel},
+        {.width = EL_TEXTURE_MAX_SIDE + 1, .height = 1, .pixels = &texel},
+        {.width = 1, .height = EL_TEXTURE_MAX_SIDE + 1, .pixels = &texel},
+        {.width = 1, .height = 1},
+        {.width = 1, .height = 1, .pixels = &texel, .palette = &texel, .format = EL_IMAGE_MASK + 1},
+        {.width = 1, .height = 1, .pixels = &texel, .format = EL_IMAGE_INDEX4},
+    };
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        image = bad[i];
+        expect_material(&material, EL_ERROR_MATERIAL);
+    }
+    image = one;
+    texture.wrap_u = EL_WRAP_MIRROR + 1;
+    expect_material(&material, EL_ERROR_MATERIAL);
+    texture.wrap_u = EL_WRAP_CLAMP;
+    texture.wrap_v = EL_WRAP_MIRROR + 1;
+    expect_material(&material, EL_ERROR_MATERIAL);
+    texture.wrap_v = EL_WRAP_MIRROR;
+    expect_material(&material, EL_OK);
+    material.alpha = 100;
+    material.flags = EL_MATERIAL_BLEND_DEPTH;
+    expect_material(&material, EL_OK);
+#if EL_WITH_PREPASS
+    config.depth_prepass = true;
+    expect_material(&material, EL_ERROR_MATERIAL);
+    material.flags = 0;
+    expect_material(&material, EL_OK);
+#endif
+}
+
+static void test_fog_that_is_refused(void)
+{
+    static el_fog fog;
+    el_material material = {.fog = &fog};
+    expect_material(&material, EL_ERROR_MATERIAL);
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_fog_exponential(&fog, &camera, 0, EL_UNIT_Q16));
+    expect_material(&material, EL_OK);
+    material.flags = EL_MATERIAL_NO_DEPTH;
+    expect_material(&material, EL_ERROR_MATERIAL);
+    material.flags = 0;
+    camera.projection = EL_ORTHOGRAPHIC;
+    camera.height_q16 = EL_UNIT_Q16;
+    expect_material(&material, EL_ERROR_MATERIAL);
+}
+#endif
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -335,5 +405,9 @@ int main(void)
     RUN_TEST(test_fronts_of_mirrored_poses_and_cameras);
     RUN_TEST(test_the_promised_memory_takes_one_pass_for_one_draw);
     RUN_TEST(test_the_promised_memory_takes_one_pass_for_many_draws);
+#if EL_WITH_MIXED
+    RUN_TEST(test_materials_that_are_mixed);
+    RUN_TEST(test_fog_that_is_refused);
+#endif
     return UNITY_END();
 }

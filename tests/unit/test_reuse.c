@@ -66,7 +66,7 @@ static void change_something(seeded *s)
     any_mesh *const m = &scene.meshes[any_below(s, SCENE_MESHES)];
     switch (any_below(s, 14)) {
     case 0:
-        fill_scene(s, &scene);
+        fill_mixed_scene(s, &scene);
         make_small(s);
         el_frame_forget(&sparing); /* its vertices are others */
         break;
@@ -120,7 +120,7 @@ static void test_courses_of_frames_show_the_same(void)
         record.answers = &answers;
         second.answers = s.round % 3 == 0 ? NULL : &answers;
         start_both(lines, s.round % 2 == 0 ? PLENTY : least, (uint8_t)any_below(&s, 4));
-        fill_scene(&s, &scene);
+        fill_mixed_scene(&s, &scene);
         make_small(&s);
         for (unsigned frame = 0; frame < FRAMES; frame++) {
             play_scene(&plain, &scene);
@@ -149,7 +149,7 @@ static void test_a_change_that_is_not_told_is_not_seen(void)
         forget_all();
         record.answers = &answers;
         start_both(8, PLENTY, EL_REUSE_FRAME);
-        fill_scene(&s, &scene);
+        fill_mixed_scene(&s, &scene);
         play_scene(&sparing, &scene);
         for (unsigned i = 0; i < SCENE_VERTICES; i++) {
             scene.meshes[0].positions[i][0] = (int16_t)-scene.meshes[0].positions[i][0];
@@ -189,7 +189,7 @@ static void test_an_unchanged_frame_costs_a_look(void)
     seeded s = seeded_from(72);
     el_stats stats[2];
     start_willing(EL_REUSE_FRAME);
-    fill_scene(&s, &scene);
+    fill_mixed_scene(&s, &scene);
     for (unsigned frame = 0; frame < 2; frame++) {
         play_scene(&sparing, &scene);
         stats[frame] = *el_frame_stats(&sparing);
@@ -253,7 +253,7 @@ static void test_a_frame_with_an_error_is_drawn_again(void)
 {
     seeded s = seeded_from(73);
     start_willing(EL_REUSE_FRAME);
-    fill_scene(&s, &scene);
+    fill_mixed_scene(&s, &scene);
     scene.meshes[0].pose.position_q16[0] = INT32_MAX;
     for (unsigned frame = 0; frame < 3; frame++) {
         unsigned refusals = 0;

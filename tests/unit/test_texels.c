@@ -89,7 +89,7 @@ static uint16_t texel_at(const el_texture *texture, const el_sample *sample)
 static uint32_t lit(uint32_t channel, uint32_t light_q24, const el_surface *surface, uint32_t x, uint32_t y)
 {
     const int32_t light_q16 = (((int32_t)(light_q24 >> 16) - 0x80) * 257) >> 8;
-    if (surface->dither) {
+    if ((surface->finish & EL_FINISH_DITHER) != 0) {
         return (uint32_t)((int32_t)channel * light_q16 + (int32_t)el_dither_threshold_q16(x, y)) >> 16;
     }
     return (channel * ((light_q24 >> 24) + 1U)) >> 8;
@@ -120,6 +120,11 @@ static void any_light(seeded *s, el_corner corners[3])
     }
 }
 
+static uint8_t any_finish(seeded *s, el_shading shading)
+{
+    return any_below(s, 2) == 0 && el_has_colours(shading) ? EL_FINISH_DITHER : 0;
+}
+
 static void expect_texels(uint64_t seed, el_shading shading, bool with_depth)
 {
     uint32_t compared = 0;
@@ -127,7 +132,7 @@ static void expect_texels(uint64_t seed, el_shading shading, bool with_depth)
         const el_texture texture = any_texture(&s);
         const el_surface surface = {.shading = shading,
                                     .depth = with_depth,
-                                    .dither = any_below(&s, 2) == 0,
+                                    .finish = any_finish(&s, shading),
                                     .uv_error_log2 = (uint8_t)any_between(&s, 1, 5),
                                     .texture = &texture};
         el_corner corners[3];

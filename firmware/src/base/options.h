@@ -3,7 +3,8 @@
  *
  * Set them by -DEL_WITH_TEXTURE=0, by CMake's EDGELINE_WITH_TEXTURE=OFF, or in a header of your own that EL_CONFIG_FILE
  * names, quotes included: -DEL_CONFIG_FILE='"edgeline_config.h"'. The library and the program that uses it are compiled
- * with the same options. A draw or a camera that asks for what was left out gets an error and draws nothing. */
+ * with the same options. A draw or a camera that asks for what was left out gets an error and draws nothing; a member that
+ * was left out does not compile. */
 #ifndef EL_BASE_OPTIONS_H
 #define EL_BASE_OPTIONS_H
 
@@ -101,14 +102,28 @@
 #define EL_WITH_REUSE (!EL_SMALL_CODE)
 #endif
 
+/* What is mixed from more than one colour per pixel, and textures of any kind (el_material.alpha, .fog; el_texture.image,
+ * .wrap_u, .wrap_v, .smooth). Without, which is what small code begins with, there are no such members. */
+#ifndef EL_WITH_MIXED
+#define EL_WITH_MIXED (!EL_SMALL_CODE)
+#endif
+
+/* el_texture.smaller. Without, which is what small code begins with, there is no such member. */
+#ifndef EL_WITH_MIPMAPS
+#define EL_WITH_MIPMAPS (!EL_SMALL_CODE && EL_WITH_TEXTURE)
+#endif
+
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
      EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_CLUSTERS | EL_WITH_HIDDEN | EL_WITH_PREPASS |              \
-     EL_WITH_WORKERS | EL_WITH_REUSE | EL_WITH_DEBUG_VIEWS) &                                                          \
+     EL_WITH_WORKERS | EL_WITH_REUSE | EL_WITH_MIXED | EL_WITH_MIPMAPS | EL_WITH_DEBUG_VIEWS) &                        \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
 #endif
 #if EL_WITH_HIDDEN && !EL_WITH_STATS
 #error "EL_WITH_HIDDEN needs EL_WITH_STATS"
+#endif
+#if EL_WITH_MIPMAPS && !EL_WITH_TEXTURE
+#error "EL_WITH_MIPMAPS needs EL_WITH_TEXTURE"
 #endif
 #if EL_WITH_DEBUG_VIEWS && !(EL_WITH_OVERDRAW && EL_WITH_STATS)
 #error "EL_WITH_DEBUG_VIEWS counts pixels and work: it needs EL_WITH_OVERDRAW and EL_WITH_STATS"

@@ -14,6 +14,12 @@ static inline uint16_t el_rgb565(uint8_t red, uint8_t green, uint8_t blue)
     return (uint16_t)(((red >> 3) << 11) | ((green >> 2) << 5) | (blue >> 3));
 }
 
+/* 0..255 as 0..256. */
+static inline uint32_t el_alpha_256(uint8_t alpha)
+{
+    return alpha + (alpha >> 7);
+}
+
 /* `over` over `under`, of which it hides alpha / 256, 0..256: each channel is rounded to nearest, ties up, so that 0 leaves
  * `under` as it is and 256 is `over`. The sums of red and blue lie 16 bits apart, below 31 * 256 + 128 each. */
 static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t alpha)

@@ -102,12 +102,6 @@ static inline uint16_t *el_canvas_line_at(const el_canvas *canvas, int32_t y)
     return canvas->pixels + (y - canvas->y) * canvas->stride;
 }
 
-/* 0..255 as 0..256. */
-static inline uint32_t el_alpha_256(uint8_t alpha)
-{
-    return alpha + (alpha >> 7);
-}
-
 #ifdef __cplusplus
 }
 #endif

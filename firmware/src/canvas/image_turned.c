@@ -54,51 +54,6 @@ static void narrow(int64_t start, int64_t step, int64_t limit, int32_t *begin, i
     *end = last < *end ? (int32_t)(last > *begin ? last : *begin) : *end;
 }
 
-/* A weighted sum of colours, and of what they show. */
-typedef struct mix {
-    uint32_t red, green, blue; /* at most 63 * 2^16 */
-    uint32_t shown;            /* at most 2^16 */
-} mix;
-
-static void add_to(mix *m, const el_image *image, uint32_t x, uint32_t y, uint32_t weight)
-{
-    /* Left of the image, above it and beyond its ends there is nothing: -1 is beyond, too. */
-    if (weight != 0 && x < image->width && y < image->height) {
-        uint16_t colour;
-        const uint32_t part = el_image_at(image, (el_image_format)image->format, x, y, &colour) * weight;
-        m->red += (colour >> 11) * part;
-        m->green += (colour >> 5 & 63U) * part;
-        m->blue += (colour & 31U) * part;
-        m->shown += part;
-    }
-}
-
-/* Of the four pixels around (u, v), which are moved by a pixel so that they are not below 0. One function for all formats,
- * which it asks about four times per pixel: one for each would be four times as long. */
-static uint32_t smooth_at(const el_image *image, uint32_t u_q16, uint32_t v_q16, uint16_t *colour)
-{
-    const uint32_t x = (u_q16 >> 16) - 1U;
-    const uint32_t y = (v_q16 >> 16) - 1U;
-    const uint32_t right = u_q16 >> 12 & 15U;
-    const uint32_t lower = v_q16 >> 12 & 15U;
-    mix m = {0};
-    add_to(&m, image, x, y, (16U - right) * (16U - lower));
-    add_to(&m, image, x + 1U, y, right * (16U - lower));
-    add_to(&m, image, x, y + 1U, (16U - right) * lower);
-    add_to(&m, image, x + 1U, y + 1U, right * lower);
-    if (m.shown == 0) {
-        return 0;
-    }
-    /* The mean of what shows, each channel rounded to nearest. */
-    const uint32_t half = m.shown / 2U;
-    if (m.shown == 1U << 16) {
-        *colour = (uint16_t)(((m.red + half) >> 16) << 11 | ((m.green + half) >> 16) << 5 | (m.blue + half) >> 16);
-        return 256;
-    }
-    *colour = (uint16_t)((m.red + half) / m.shown << 11 | (m.green + half) / m.shown << 5 | (m.blue + half) / m.shown);
-    return (m.shown + 128U) >> 8;
-}
-
 typedef struct walk {
     uint32_t u_q16, v_q16;   /* at the row's first column */
     uint32_t u_step, v_step; /* modulo 2^32 */
@@ -128,13 +83,19 @@ static EL_SPECIALISED void draw_nearest(uint16_t *at, uint32_t count, const el_i
     }
 }
 
+/* One function for all formats, which it asks about four times per pixel: one for each would be four times as long. */
 static void draw_smooth(uint16_t *at, uint32_t count, const el_image *image, const walk *w)
 {
     uint32_t u_q16 = w->u_q16;
     uint32_t v_q16 = w->v_q16;
     for (; count > 0; count--, at++) {
+        /* Places are moved by a pixel so that they are not below 0; -1 is beyond the image, too. */
+        const uint32_t x = u_q16 >> 16;
+        const uint32_t y = v_q16 >> 16;
+        const el_image_spot spot = {
+            .x = {x - 1U, x}, .y = {y - 1U, y}, .right = u_q16 >> 12 & 15U, .down = v_q16 >> 12 & 15U};
         uint16_t colour = 0;
-        const uint32_t there = smooth_at(image, u_q16, v_q16, &colour);
+        const uint32_t there = el_image_smooth_at(image, &spot, &colour);
         draw_pixel(at, colour, (there * w->alpha + 128U) >> 8);
         u_q16 += w->u_step;
         v_q16 += w->v_step;

@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "base/rgb565.h"
 #include "frame/debug_hooks.h"
+#include "raster/sampler.h"
 
 #if EL_WITH_DEBUG_VIEWS
 
@@ -80,9 +81,11 @@ static uint16_t middle_texel(const el_draw_state *draw, uint16_t index)
         }
         whole[i] = (uint32_t)(sum_q4 / 3 >> 4);
     }
-    const uint32_t column = whole[0] & ((1U << texture->width_log2) - 1U);
-    const uint32_t line = whole[1] & ((1U << texture->height_log2) - 1U);
-    return texture->texels[(line << texture->width_log2) + column];
+    el_sampler sampler;
+    el_sampler_make(&sampler, texture);
+    uint16_t colour = 0;
+    (void)el_sampler_at(&sampler, whole[0] << 16, whole[1] << 16, &colour);
+    return colour;
 }
 
 void el_debug_surface(const el_renderer *renderer, const el_record *record, el_surface *surface)

@@ -8,7 +8,9 @@
 #include "frame/drawing.h"
 #include "frame/quiet.h"
 #include "geometry/clip.h"
+#include "raster/fog.h"
 #include "raster/gather.h"
+#include "raster/texture.h"
 
 /* Attributes of corners that are cut. */
 enum { U, V, RGB };
@@ -310,6 +312,33 @@ enum {
                (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
 };
 
+/* EL_FINISH_ of its surfaces, as it is shaded. */
+static uint8_t finish_of(const el_material *material, el_shading shading)
+{
+    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+    unsigned finish = (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
+#if EL_WITH_MIXED
+    if (shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
+                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)))) {
+        finish |= EL_FINISH_MIXED;
+    }
+#endif
+    return (uint8_t)finish;
+}
+
+#if EL_WITH_MIXED
+/* Of a material that is good otherwise: whether what it is to be mixed with can be. */
+static bool can_mix(const el_renderer *renderer, const el_material *material)
+{
+    if (material->fog != NULL && ((material->flags & EL_MATERIAL_NO_DEPTH) != 0 || !el_fog_is_made(material->fog) ||
+                                  renderer->view.projection != EL_PERSPECTIVE)) {
+        return false;
+    }
+    return !el_is_blended(material) || (material->flags & EL_MATERIAL_BLEND_DEPTH) == 0 ||
+           !renderer->config.depth_prepass;
+}
+#endif
+
 static el_status check(const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
@@ -323,8 +352,7 @@ static el_status check(const el_mesh *mesh, const el_material *material)
         (!EL_WITH_DITHER && (material->flags & EL_MATERIAL_DITHER) != 0) ||
         (!EL_WITH_LIGHT && material->light != NULL) ||
         (el_has_texture((el_shading)shading) &&
-         (material->texture == NULL || material->texture->texels == NULL || mesh->uvs == NULL ||
-          material->texture->width_log2 > 10 || material->texture->height_log2 > 10)) ||
+         (material->texture == NULL || mesh->uvs == NULL || !el_texture_is_good(material->texture))) ||
         (el_is_lit(material) && mesh->normals == NULL)) {
         return EL_ERROR_MATERIAL;
     }
@@ -340,6 +368,11 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (status != EL_OK) {
         return status;
     }
+#if EL_WITH_MIXED
+    if (!can_mix(renderer, material)) {
+        return EL_ERROR_MATERIAL;
+    }
+#endif
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -368,6 +401,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
+    state.finish = finish_of(material, shading);
     el_drawing d = {
         .renderer = renderer,
         .mesh = mesh,

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/hash.h"
+#include "raster/fog.h"
 
 #if EL_WITH_REUSE
 
@@ -64,16 +65,68 @@ static uint32_t hash_mesh(uint32_t hash, const el_mesh *mesh)
     return el_hash_word(hash, (uint16_t)mesh->centre[2]);
 }
 
+#if EL_WITH_MIXED
+static uint32_t hash_image(uint32_t hash, const el_image *image)
+{
+    hash = hash_pointer(hash, image->pixels);
+    hash = hash_pointer(hash, image->palette);
+    hash = hash_pointer(hash, image->alpha);
+    hash = hash_pair(hash, image->width, image->height);
+    return hash_pair(hash, (uint32_t)image->format << 1 | image->has_key, image->key);
+}
+
+static uint32_t hash_fog(uint32_t hash, const el_fog *fog)
+{
+    hash = hash_pointer(hash, fog);
+    if (fog != NULL) {
+        hash = hash_pair(hash, fog->colour, fog->step_log2);
+        hash = el_hash_word(el_hash_word(hash, fog->scale_q12), fog->end);
+        for (unsigned i = 0; i < EL_FOG_STEPS + 2U; i += 2) {
+            hash = hash_pair(hash, fog->alpha_q7[i], fog->alpha_q7[i + 1U]);
+        }
+    }
+    return hash;
+}
+#endif
+
+static uint32_t hash_one_texture(uint32_t hash, const el_texture *texture)
+{
+    hash = hash_pointer(hash, texture->texels);
+    hash = hash_pair(hash, texture->width_log2, texture->height_log2);
+#if EL_WITH_MIXED
+    hash = el_hash_word(hash, (uint32_t)texture->wrap_u << 8 | (uint32_t)texture->wrap_v << 1 | texture->smooth);
+    if (texture->image != NULL) {
+        hash = hash_image(hash, texture->image);
+    }
+#endif
+    return hash;
+}
+
+static uint32_t hash_texture(uint32_t hash, const el_texture *texture)
+{
+    hash = hash_one_texture(hash, texture);
+#if EL_WITH_MIPMAPS
+    while (texture->smaller != NULL) {
+        texture = texture->smaller;
+        hash = hash_one_texture(hash, texture);
+    }
+#endif
+    return hash;
+}
+
 static uint32_t hash_material(uint32_t hash, const el_material *material)
 {
     hash = hash_pair(hash, material->shading, material->flags);
+#if EL_WITH_MIXED
+    hash = el_hash_word(hash, material->alpha);
+    hash = hash_fog(hash, material->fog);
+#endif
     hash = el_hash_word(hash, (uint32_t)material->colour[0] << 16 | (uint32_t)material->colour[1] << 8 |
                                   (uint32_t)material->colour[2]);
     hash = hash_pointer(hash, material->texture);
     hash = hash_pointer(hash, material->light);
     if (material->texture != NULL) {
-        hash = hash_pointer(hash, material->texture->texels);
-        hash = hash_pair(hash, material->texture->width_log2, material->texture->height_log2);
+        hash = hash_texture(hash, material->texture);
     }
     if (material->light != NULL) {
         hash = hash_words(hash, material->light->direction_q30, 3);

@@ -4,7 +4,11 @@
 #ifndef EL_GEOMETRY_MESH_H
 #define EL_GEOMETRY_MESH_H
 
+#include <stdbool.h>
 #include <stdint.h>
+
+#include "base/image.h"
+#include "base/options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,12 +17,35 @@ extern "C" {
 /* The most that a mesh can have. Triangle indices above are reserved. */
 enum { EL_MESH_MAX_TRIANGLES = 61440, EL_MESH_MAX_VERTICES = 65535 };
 
-/* A picture of 2^width_log2 x 2^height_log2 RGB565 texels, row 0 on top; it repeats in both directions.
- * Ranges: 0 <= width_log2, height_log2 <= 10. */
+/* What lies beyond a texture's borders: period 1 of it, its outermost texels, period 2 with every other one turned around. */
+typedef enum el_wrap { EL_WRAP_REPEAT, EL_WRAP_CLAMP, EL_WRAP_MIRROR } el_wrap;
+
+enum { EL_TEXTURE_MAX_SIDE = 1024 };
+
+/* A picture, row 0 on top: 2^width_log2 x 2^height_log2 RGB565 texels, which is drawn fastest if it repeats in both
+ * directions and is not smooth; or `image`, in any format of base/image.h and of any size up to EL_TEXTURE_MAX_SIDE.
+ * Ranges: 0 <= width_log2, height_log2 <= 10.
+ *
+ * Of an image with a key, or a mask, texels that show less than half are not drawn: neither their colour nor their depth. One
+ * with `alpha` is blended (el_material.alpha).
+ *
+ * `smaller` is the same picture at half the size: of a side of n texels n / 2, n even, or 1 of 1. A triangle is drawn with the
+ * first of this chain in which it has less than two texels for each pixel that it covers, by the areas of its corners:
+ * those on the screen, and those of u and v; or with the last one. So whatever is chosen is chosen for a whole triangle, or
+ * for the piece of it that clipping leaves. Texture coordinates are those of the first texture. Each has its own wrap_u,
+ * wrap_v and smooth. */
 typedef struct el_texture {
-    const uint16_t *texels;
+    const uint16_t *texels; /* not looked at where there is an image */
     uint8_t width_log2;
     uint8_t height_log2;
+#if EL_WITH_MIXED
+    uint8_t wrap_u, wrap_v; /* el_wrap */
+    bool smooth;            /* bilinear: the mean of four texels by their centres' distances in sixteenths */
+    const el_image *image;  /* or NULL */
+#endif
+#if EL_WITH_MIPMAPS
+    const struct el_texture *smaller; /* or NULL */
+#endif
 } el_texture;
 
 /* A part of a mesh that can be skipped whole: triangles that follow each other, a sphere around them and a cone around

@@ -114,6 +114,11 @@ static EL_SPECIALISED int32_t fill_rows(el_triangle *triangle, const el_target *
     if (EL_WITH_TEXTURE && (asked & EL_FILL_TEXTURE) != 0) {
         return el_fill_textured(triangle, target, stats, asked);
     }
+#if EL_WITH_MIXED
+    if ((asked & EL_FILL_MIXED) != 0) {
+        return el_fill_mixed(triangle, target, stats, asked);
+    }
+#endif
     return fill_count(triangle, target, stats, asked);
 }
 

@@ -12,7 +12,8 @@ enum {
     EL_FILL_COLOURS = EL_WITH_GOURAUD ? 2 : 0,
     EL_FILL_TEXTURE = EL_WITH_TEXTURE ? 4 : 0,
     EL_FILL_COUNT = EL_WITH_OVERDRAW ? 8 : 0,
-    EL_FILL_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0
+    EL_FILL_DITHER = EL_FINISH_DITHER,
+    EL_FILL_MIXED = EL_FINISH_MIXED /* another loop for all of the above (fill_mixed.c) */
 };
 
 static inline uint8_t el_fill_kind(const el_surface *surface)
@@ -20,13 +21,18 @@ static inline uint8_t el_fill_kind(const el_surface *surface)
     _Static_assert(EL_SHADE_GOURAUD << 1 == 2 && EL_SHADE_TEXTURED << 1 == 4 && EL_SHADE_OVERDRAW << 1 == 8,
                    "a shading's bits are those of its fill");
     const unsigned kind = (unsigned)surface->shading << 1 & (EL_FILL_COLOURS | EL_FILL_TEXTURE | EL_FILL_COUNT);
-    const bool dithers = surface->dither && (kind & EL_FILL_COLOURS) != 0;
     const bool depth = surface->depth && (EL_WITH_DEBUG_VIEWS || (kind & EL_FILL_COUNT) == 0);
-    return (uint8_t)(kind | (dithers ? EL_FILL_DITHER : 0U) | (depth ? EL_FILL_DEPTH : 0U));
+    const unsigned finish = surface->finish & (EL_FILL_DITHER | EL_FILL_MIXED);
+    return (uint8_t)(kind | finish | (depth ? EL_FILL_DEPTH : 0U));
 }
 
 /* Draws the next rows of a triangle with a texture in the target, EL_SPAN_ROWS at most, and returns how many they are. */
 int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+
+#if EL_WITH_MIXED
+/* The same for a triangle of any kind that is mixed. */
+int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind);
+#endif
 
 /* A walk along rows of pixels: through the depth where there is a test, else through the colour. The colour lies at a fixed
  * distance in bytes, so that one register leads to both. */

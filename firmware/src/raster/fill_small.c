@@ -127,6 +127,14 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
 {
     const unsigned kind = triangle->kind;
     const int32_t y_end = el_min_i32(triangle->y_end, target->y_end);
+#if EL_WITH_MIXED
+    if ((kind & EL_FILL_MIXED) != 0) {
+        while (triangle->y < y_end) {
+            (void)el_fill_mixed(triangle, target, stats, kind);
+        }
+        return;
+    }
+#endif
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
     brush b;
     if ((kind & EL_FILL_TEXTURE) != 0) {

@@ -188,6 +188,10 @@ FILLS(DEFINE)
 int32_t el_fill_textured(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned asked)
 {
     FILLS(CALL)
+#if EL_WITH_MIXED
+    return el_fill_mixed(triangle, target, stats, asked);
+#else
     return 0; /* there is no other */
+#endif
 }
 #endif

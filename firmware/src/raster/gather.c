@@ -8,6 +8,7 @@
 #include "base/fixed.h"
 #include "base/rgb565.h"
 #include "raster/plain.h"
+#include "raster/texture.h"
 
 /* n / 127, n < 2^25. */
 static inline uint32_t by_127(uint32_t n)
@@ -271,6 +272,23 @@ static EL_APART void gather_colours(const el_draw_state *draw, uint16_t index, e
 }
 #endif
 
+#if EL_WITH_MIPMAPS
+/* With the texture of which the triangle has less than two texels per pixel, in whose texels its coordinates are then. */
+static EL_APART void choose_level(const el_texture *texture, el_corner corners[3], el_surface *surface)
+{
+    const int level = (int)el_mip_level(texture, corners);
+    for (unsigned i = 0; i < 3; i++) {
+        corners[i].u_q16 >>= level;
+        corners[i].v_q16 >>= level;
+    }
+    if (el_is_mixed(surface)) {
+        surface->level = (uint8_t)level;
+    } else {
+        surface->texture = el_texture_at_level(texture, (unsigned)level);
+    }
+}
+#endif
+
 unsigned el_list_gather(const el_list *list, const el_record *record, el_corner corners[3], el_surface *surface)
 {
     const el_run *const run = el_list_run(list, record);
@@ -280,8 +298,12 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     const el_shading shading = el_shading_of(draw);
     surface->shading = shading;
     surface->depth = (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
-    surface->dither = (material->flags & EL_MATERIAL_DITHER) != 0;
+    surface->finish = draw->finish;
     surface->texture = material->texture;
+    if (el_is_mixed(surface)) {
+        surface->material = material;
+        surface->level = 0;
+    }
 
     const uint8_t *const plain = shading == EL_SHADE_FLAT ? el_plain_colour(draw, record->index) : NULL;
     if (plain != NULL) {
@@ -301,6 +323,11 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
 #endif
         } else if (el_has_texture(shading) || el_has_colours(shading)) {
             gather_attributes(draw, record, kind, corners);
+#if EL_WITH_MIPMAPS
+            if (el_has_texture(shading) && material->texture->smaller != NULL) {
+                choose_level(material->texture, corners, surface);
+            }
+#endif
         }
     }
     return EL_WITH_THIN && kind == EL_RECORD_THIN ? 3U : 0U;
@@ -312,7 +339,8 @@ unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_c
     const el_draw_state *const draw = el_list_draw(list, record);
     *surface = (el_surface){
         .shading = EL_SHADE_FLAT,
-        .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW,
+        .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW &&
+                 (draw->finish & EL_FINISH_MIXED) == 0,
     };
     if (!surface->depth) {
         return 0U;

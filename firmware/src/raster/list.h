@@ -53,6 +53,7 @@ typedef struct el_draw_state {
     const el_material *material;
     int16_t light_q14[3]; /* direction towards the light in model space */
     uint8_t mirrored;     /* front faces run clockwise on the screen */
+    uint8_t finish;       /* EL_FINISH_ (triangle.h) of its surfaces */
 #if EL_WITH_DEBUG_VIEWS
     uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
     uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */

@@ -32,7 +32,8 @@ enum {
     EL_MATERIAL_TWO_SIDED = 1, /* draws back faces too; their normals are turned around */
     EL_MATERIAL_NO_DEPTH = 2,  /* neither tests nor writes depth: what is drawn later covers what was earlier */
     EL_MATERIAL_FLAT_MEAN = 4, /* flat: the mean of the three vertices' colours instead of the first vertex' */
-    EL_MATERIAL_DITHER = 8     /* vertex colours and light: 4x4 ordered dithering to the display's levels (dither.h) */
+    EL_MATERIAL_DITHER = 8,    /* vertex colours and light: 4x4 ordered dithering to the display's levels (dither.h) */
+    EL_MATERIAL_BLEND_DEPTH = 16 /* what is blended writes depth, too; not with el_config.depth_prepass */
 };
 
 /* Ambient light and one directional light, both white. */
@@ -42,18 +43,41 @@ typedef struct el_light {
     uint8_t diffuse;          /* added where the surface faces the light, less by the cosine elsewhere */
 } el_light;
 
-/* Zeroed: flat, black, front faces, with depth. What it points to must stay until the frame is done. */
+/* Zeroed: flat, black, front faces, with depth, opaque. What it points to must stay until the frame is done.
+ *
+ * What is blended (alpha of 1 to 254, or a texture's image with alpha) is mixed with what is drawn already: a weight of
+ * el_alpha_256(alpha) / 256, times the texel's, rounded to nearest; el_rgb565_blend mixes. It is tested by depth, and leaves
+ * depth as it is. So draw opaque things first, and then what is blended from the back to the front: within a mesh its
+ * triangles are drawn in their order, and meshes in the order of submission, whatever bands, passes and arenas there are. */
 typedef struct el_material {
-    uint8_t shading;           /* el_shading */
-    uint8_t flags;             /* EL_MATERIAL_ */
-    uint8_t colour[3];         /* red, green, blue of meshes without colours of their own */
+    uint8_t shading;   /* el_shading */
+    uint8_t flags;     /* EL_MATERIAL_ */
+    uint8_t colour[3]; /* red, green, blue of meshes without colours of their own */
+#if EL_WITH_MIXED
+    uint8_t alpha; /* 0 and 255: opaque */
+#endif
     const el_texture *texture; /* for the textured shadings */
     const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
+#if EL_WITH_MIXED
+    const struct el_fog *fog; /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
+#endif
 } el_material;
 
 static inline bool el_is_lit(const el_material *material)
 {
     return EL_WITH_LIGHT && material->light != NULL;
 }
+
+#if EL_WITH_MIXED
+/* Whether what is drawn is mixed with what is there. */
+static inline bool el_is_blended(const el_material *material)
+{
+    if ((uint8_t)(material->alpha + 1U) > 1U) {
+        return true;
+    }
+    return el_has_texture((el_shading)material->shading) && material->texture->image != NULL &&
+           material->texture->image->alpha != NULL;
+}
+#endif
 
 #endif

@@ -244,5 +244,7 @@ void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle)
 {
     memcpy(depth, triangle, offsetof(el_triangle, rgb));
     depth->surface.shading = EL_SHADE_FLAT;
+    depth->surface.depth = depth->surface.depth && !el_is_mixed(&depth->surface);
+    depth->surface.finish = 0;
     depth->kind = el_fill_kind(&depth->surface);
 }

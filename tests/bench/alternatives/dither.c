@@ -10,7 +10,7 @@ static void off_case(const bench_case *self, int32_t *record)
 
 static void on_case(const bench_case *self, int32_t *record)
 {
-    const el_surface surface = {.shading = EL_SHADE_GOURAUD, .dither = true};
+    const el_surface surface = {.shading = EL_SHADE_GOURAUD, .finish = EL_FINISH_DITHER};
     (void)record;
     draw_all(&surface, self->triangles, 0, NULL, NULL);
 }
