@@ -132,8 +132,36 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
+#if EL_WITH_SAMPLES
+static el_sampled_target sampled_target(const el_painter *painter, const el_renderer *renderer,
+                                        const el_target *target)
+{
+    const uint32_t words = EL_MIXED_WORDS(renderer->config.width) * (uint32_t)renderer->config.band_lines;
+    return (el_sampled_target){
+        .target = *target,
+        .mixed = painter->samples,
+        .samples = painter->samples + (words + 1U) / 2U * 2U,
+        .count = renderer->config.samples,
+    };
+}
+#endif
+
 OF_WORKERS_TOO void el_painter_finish(el_painter *painter, const el_renderer *renderer)
 {
+#if EL_WITH_SAMPLES
+    if (el_renderer_samples(renderer) > 1) {
+        const el_band *const buffer = &painter->bands[painter->current];
+        const el_target target = {
+            .colour = buffer->pixels,
+            .depth = painter->depth[painter->current],
+            .width = buffer->width,
+            .y = buffer->y,
+            .y_end = buffer->y + buffer->lines,
+        };
+        const el_sampled_target sampled = sampled_target(painter, renderer, &target);
+        el_samples_resolve(&sampled);
+    }
+#endif
     el_debug_finish_band(renderer, painter);
     draw_layer(renderer->config.over, &painter->bands[painter->current]);
 }
@@ -443,6 +471,36 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
 }
 #endif
 
+#if EL_WITH_SAMPLES
+/* Draws the chains `fresh` and `carried` where pixels have several samples. Returns the chain of what is carried on: records
+ * alone, which are set up anew in each band. */
+static EL_APART uint16_t draw_sampled(const el_painter *painter, const el_renderer *renderer, const el_target *target,
+                                      uint16_t fresh, uint16_t carried)
+{
+    const el_list *const list = &renderer->list;
+    const el_sampled_target sampled = sampled_target(painter, renderer, target);
+    uint16_t first = 0;
+    uint16_t *last = &first;
+    while (fresh != 0 || carried != 0) {
+        uint16_t *const taken = carried == 0 || (fresh != 0 && fresh < carried) ? &fresh : &carried;
+        const uint16_t name = *taken;
+        *taken = *(const uint16_t *)el_list_at(list, name);
+        el_corner corners[3];
+        el_surface surface;
+        el_count(&painter->stats->vertices, el_list_gather(list, el_list_record(list, name), corners, &surface));
+        el_count(&painter->stats->setups, 1);
+        surface.uv_error_log2 = renderer->config.uv_error_log2;
+        el_debug_surface(renderer, el_list_record(list, name), &surface);
+        if (el_sampled_draw(corners, &surface, &sampled, painter->stats) && painter->goes_on) {
+            *last = name;
+            last = el_list_at(list, name);
+        }
+    }
+    *last = 0;
+    return first;
+}
+#endif
+
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
 OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
@@ -451,12 +509,19 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
     el_carrying *const c = &painter->carrying;
 #if EL_WITH_PREPASS
     painter->first_depth =
-        renderer->config.depth_prepass && !painter->band_is_open && renderer->config.view == EL_DEBUG_PICTURE;
+        renderer->config.depth_prepass && !painter->band_is_open && renderer->config.view == EL_DEBUG_PICTURE &&
+        el_renderer_samples(renderer) == 1;
 #endif
     const el_target target = open_band(painter, renderer, band);
     painter->goes_on = goes_on;
     uint16_t fresh = el_list_take_bin(list, band);
     uint16_t carried = c->first;
+#if EL_WITH_SAMPLES
+    if (el_renderer_samples(renderer) > 1) {
+        c->first = draw_sampled(painter, renderer, &target, fresh, carried);
+        return;
+    }
+#endif
 #if EL_WITH_HIDDEN
     el_hidden hidden;
     painter->hidden = &hidden;

@@ -324,6 +324,9 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (status != EL_OK) {
         return status;
     }
+    if (EL_WITH_SAMPLES && material->shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
+        return EL_ERROR_MATERIAL;
+    }
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -358,7 +361,8 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     d.culling = (el_culling){.facing = state.mirrored != 0 ? -1 : 1,
                              .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                              .width = renderer->config.width,
-                             .height = renderer->config.height};
+                             .height = renderer->config.height,
+                             .reach = renderer->list.reach};
     el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {

@@ -48,6 +48,9 @@ typedef struct el_painter {
     el_carrying carrying;
     el_band bands[2];
     uint16_t *depth[2]; /* of each band; one and the same where there is one worker */
+#if EL_WITH_SAMPLES
+    uint32_t *samples; /* mixed bits, and samples behind them (raster/samples.h); NULL: there is no memory for any */
+#endif
 #if EL_WITH_HIDDEN
     el_hidden *hidden; /* of the band that is drawn into */
 #endif
