@@ -8,6 +8,8 @@
 
 #include "base/fixed.h"
 #include "raster/fill_row.h"
+#include "raster/sampled_pixel.h"
+#include "raster/small_sampled.h"
 
 #if EL_WITH_SAMPLES
 
@@ -172,19 +174,8 @@ static uint32_t covered(const sampled_row *row, int32_t x, unsigned count)
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------- */
 
-/* A row of the band, under way. */
-typedef struct place {
-    uint16_t *colour, *depth;
-    uint32_t *mixed, *samples;
-} place;
-
-static bool is_mixed(const place *at, uint32_t x)
-{
-    return (at->mixed[x / 32U] >> (x % 32U) & 1U) != 0;
-}
-
 /* The colour of a shading that few triangles have, by drawing the pixel: of row and column, but where the sample is. */
-static EL_APART uint32_t draw_colour(sampled *s, const place *at, uint32_t x, unsigned k)
+static EL_APART uint32_t draw_colour(sampled *s, const el_sampled_place *at, uint32_t x, unsigned k)
 {
     el_triangle shifted = s->triangle;
     shifted.kind = (uint8_t)(s->triangle.kind & ~(unsigned)EL_FILL_DEPTH);
@@ -208,7 +199,7 @@ static EL_APART uint32_t draw_colour(sampled *s, const place *at, uint32_t x, un
 }
 
 /* The colour at sample k of a pixel, whose centre has values v; the centre's is k = count. */
-static EL_SPECIALISED uint32_t colour_at(sampled *s, const place *at, const el_values *v, uint32_t x, unsigned k,
+static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x, unsigned k,
                                          unsigned kind)
 {
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
@@ -226,7 +217,7 @@ static EL_SPECIALISED uint32_t colour_at(sampled *s, const place *at, const el_v
 }
 
 /* Draws the samples of `mask`, not 0, of a pixel, in the depth and colour at sample k. */
-static EL_SPECIALISED void draw_samples(sampled *s, const place *at, const el_values *v, uint32_t x, uint32_t mask,
+static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x, uint32_t mask,
                                         unsigned k, unsigned kind)
 {
     const unsigned count = s->target->count;
@@ -235,7 +226,7 @@ static EL_SPECIALISED void draw_samples(sampled *s, const place *at, const el_va
     const uint32_t z = tests ? (uint32_t)((v->z + s->z_at[k]) >> 32) : 0U;
     bool mixed = false;
     if (!tests || z >= at->depth[x]) {
-        mixed = is_mixed(at, x);
+        mixed = el_is_mixed(at, x);
         if (tests && !mixed) {
             return;
         }
@@ -262,7 +253,7 @@ static EL_SPECIALISED void draw_samples(sampled *s, const place *at, const el_va
 }
 
 /* Pixels [x, x_end) of a row, of which some samples are covered. */
-static EL_SPECIALISED void draw_ends(sampled *s, const place *at, const sampled_row *row, const el_slopes *slopes,
+static EL_SPECIALISED void draw_ends(sampled *s, const el_sampled_place *at, const sampled_row *row, const el_slopes *slopes,
                                      int32_t x, int32_t x_end, unsigned kind)
 {
     el_values v = el_values_at(slopes, x, kind);
@@ -280,44 +271,22 @@ static EL_SPECIALISED void draw_ends(sampled *s, const place *at, const sampled_
 }
 
 /* Those of pixels [x, x_end) that are mixed, and covered as a whole. */
-static EL_SPECIALISED void draw_mixed(sampled *s, const place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
+static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
                                       unsigned kind)
 {
     const unsigned count = s->target->count;
     for (; x < x_end; x++) {
-        if (!is_mixed(at, x)) {
+        if (!el_is_mixed(at, x)) {
             continue;
         }
         const el_values v = el_values_at(slopes, (int32_t)x, kind);
         draw_samples(s, at, &v, x, (1U << count) - 1U, count, kind);
-        const uint32_t *const samples = at->samples + x * count;
-        bool same = true;
-        for (unsigned i = 1; i < count; i++) {
-            same = same && samples[i] == samples[0];
-        }
-        if (same) {
-            at->mixed[x / 32U] &= ~(1U << (x % 32U));
-            at->depth[x] = (uint16_t)(samples[0] >> 16);
-            at->colour[x] = (uint16_t)samples[0];
-        }
+        el_unmix(at, x, count);
     }
-}
-
-static bool any_mixed(const place *at, uint32_t x, uint32_t x_end)
-{
-    uint32_t word = x / 32U;
-    uint32_t any = at->mixed[word] & 0xFFFFFFFFU << (x % 32U);
-    for (; word < (x_end - 1U) / 32U; any = at->mixed[word]) {
-        if (any != 0) {
-            return true;
-        }
-        word++;
-    }
-    return (any & 0xFFFFFFFFU >> (31U - (x_end - 1U) % 32U)) != 0;
 }
 
 /* Pixels [x, x_end) of a row, one at least, covered as a whole. */
-static EL_SPECIALISED void draw_inner(sampled *s, const place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
+static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
                                       unsigned kind)
 {
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
@@ -340,24 +309,16 @@ static EL_SPECIALISED void draw_inner(sampled *s, const place *at, const el_slop
             depth++;
         } while (++colour != end);
     }
-    if (any_mixed(at, x, x_end)) {
+    if (el_any_is_mixed(at, x, x_end)) {
         draw_mixed(s, at, slopes, x, x_end, kind);
     }
 }
 
 static EL_SPECIALISED void draw_rows(sampled *s, int32_t y, int32_t y_end, el_stats *stats, unsigned kind)
 {
-    const el_target *const target = &s->target->target;
     el_slopes slopes = el_slopes_of(&s->triangle, kind);
     for (; y < y_end; y++) {
-        const uint32_t skipped = (uint32_t)(y - target->y);
-        const uint32_t pixels = skipped * (uint32_t)target->width;
-        const place at = {
-            .colour = target->colour + pixels,
-            .depth = target->depth + pixels,
-            .mixed = s->target->mixed + skipped * EL_MIXED_WORDS((uint32_t)target->width),
-            .samples = s->target->samples + pixels * s->target->count,
-        };
+        const el_sampled_place at = el_sampled_place_at(s->target, y);
         sampled_row row;
         next_row(s, y, &row);
         el_count(&stats->rows, 1);
@@ -396,22 +357,16 @@ static EL_APART void draw_other(sampled *s, int32_t y, int32_t y_end, el_stats *
     draw_rows(s, y, y_end, stats, s->triangle.kind);
 }
 
-bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
-                     el_stats *stats)
+/* The way of all but small triangles in few colours. */
+static EL_APART void draw_any(const el_corner *const sorted[3], int64_t area, const el_surface *surface,
+                              const el_sampled_target *target, int32_t y, int32_t y_end, int32_t y_last,
+                              el_stats *stats)
 {
-    const int32_t reach = el_samples_reach(target->count);
-    const int32_t top = el_min_i32(corners[0].y, el_min_i32(corners[1].y, corners[2].y));
-    const int32_t bottom = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
-    const int32_t y = el_max_i32(el_first_centre(top - reach), target->target.y);
-    const int32_t y_last = el_first_centre(bottom + reach);
-    const int32_t y_end = el_min_i32(y_last, target->target.y_end);
-    sampled s = {.target = target, .points = el_sample_points(target->count)};
-    const el_corner *sorted[3];
-    const int side = y < y_last ? el_triangle_setup_planes(&s.triangle, corners, surface, y, sorted) : 0;
-    if (side == 0) {
-        return false;
-    }
-    s.short_is_left = side < 0;
+    sampled s;
+    s.target = target;
+    s.points = el_sample_points(target->count);
+    s.short_is_left = area < 0;
+    el_triangle_setup_planes(&s.triangle, sorted, surface, y);
     s.triangle.y_end = (int16_t)y_last;
     make_parts(&s, sorted);
     for (unsigned k = 0; k < target->count; k++) {
@@ -425,6 +380,51 @@ bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, cons
     } else {
         draw_other(&s, y, y_end, stats);
     }
+}
+
+#if EL_WITH_SMALL_SAMPLED
+/* A small one's shape, if it is one, and it is on the screen's columns. */
+static bool is_small(const el_corner *const sorted[3], int32_t reach, const el_sampled_target *target,
+                     el_small_shape *shape)
+{
+    *shape = (el_small_shape){
+        .dx1 = sorted[1]->x - sorted[0]->x,
+        .dy1 = sorted[1]->y - sorted[0]->y,
+        .dx2 = sorted[2]->x - sorted[0]->x,
+        .dy2 = sorted[2]->y - sorted[0]->y,
+    };
+    const int32_t left = el_min_i32(sorted[0]->x, el_min_i32(sorted[1]->x, sorted[2]->x));
+    const int32_t right = el_max_i32(sorted[0]->x, el_max_i32(sorted[1]->x, sorted[2]->x));
+    return el_shape_is_small(shape) && el_first_centre(left - reach) >= 0 &&
+           el_first_centre(right + reach) <= target->target.width;
+}
+#endif
+
+bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
+                     el_stats *stats)
+{
+    const el_corner *sorted[3];
+    el_triangle_sort(corners, sorted);
+    const int32_t reach = el_samples_reach(target->count);
+    const int32_t y = el_max_i32(el_first_centre(sorted[0]->y - reach), target->target.y);
+    const int32_t y_last = el_first_centre(sorted[2]->y + reach);
+    const int32_t y_end = el_min_i32(y_last, target->target.y_end);
+    const int32_t xs[3] = {sorted[0]->x, sorted[1]->x, sorted[2]->x};
+    const int32_t ys[3] = {sorted[0]->y, sorted[1]->y, sorted[2]->y};
+    const int64_t area = el_doubled_area(xs, ys);
+    if (y >= y_end || area == 0) {
+        return area != 0 && y_last > target->target.y_end;
+    }
+#if EL_WITH_SMALL_SAMPLED
+    const unsigned kind = el_fill_kind(surface);
+    el_small_shape shape;
+    if ((kind == EL_FILL_DEPTH || kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) &&
+        is_small(sorted, reach, target, &shape)) {
+        el_small_sampled_draw(sorted, &shape, (int32_t)area, surface, target, y, y_end, stats);
+        return y_last > target->target.y_end;
+    }
+#endif
+    draw_any(sorted, area, surface, target, y, y_end, y_last, stats);
     return y_last > target->target.y_end;
 }
 

@@ -241,24 +241,22 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
 }
 
 #if EL_WITH_SAMPLES
-int el_triangle_setup_planes(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t row,
-                             const el_corner *sorted[3])
+void el_triangle_sort(const el_corner corners[3], const el_corner *sorted[3])
 {
     const outline o = sort_corners(corners);
-    const int32_t x[3] = {o.top->x, o.middle->x, o.bottom->x};
-    const int32_t y[3] = {o.top->y, o.middle->y, o.bottom->y};
-    const int64_t area = el_doubled_area(x, y);
-    if (area == 0) {
-        return 0;
-    }
     sorted[0] = o.top;
     sorted[1] = o.middle;
     sorted[2] = o.bottom;
+}
+
+void el_triangle_setup_planes(el_triangle *triangle, const el_corner *const sorted[3], const el_surface *surface,
+                              int32_t row)
+{
+    const outline o = {.top = sorted[0], .middle = sorted[1], .bottom = sorted[2]};
     triangle->surface = *surface;
     triangle->kind = el_fill_kind(surface);
     triangle->y = (int16_t)row;
     make_planes(triangle, &o, false);
-    return area < 0 ? -1 : 1;
 }
 #endif
 

@@ -72,11 +72,13 @@ uint32_t el_triangle_bytes(el_shading shading);
 bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row);
 
 #if EL_WITH_SAMPLES
-/* Sets up what pixels of `corners` are made of from `row` on, which may be any near them: the surface, the kind, and what is
- * linear on the screen; no edges. Puts the corners into the order of their rows, and of their columns where they are level.
- * Returns 0, and sets up nothing, when the area is zero; -1 when the middle corner is to the left of the others' edge, else 1. */
-int el_triangle_setup_planes(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t row,
-                             const el_corner *sorted[3]);
+/* Puts corners into the order of their rows, and of their columns where they are level. */
+void el_triangle_sort(const el_corner corners[3], const el_corner *sorted[3]);
+
+/* Sets up what pixels are made of from `row` on, which may be any near the sorted corners: the surface, the kind, and what is
+ * linear on the screen; no edges. The area is not 0. */
+void el_triangle_setup_planes(el_triangle *triangle, const el_corner *const sorted[3], const el_surface *surface,
+                              int32_t row);
 #endif
 
 /* Makes `depth` draw the depth of what `triangle` is about to draw, if it has one; flat, in the same colour. */
