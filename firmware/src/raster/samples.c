@@ -49,9 +49,16 @@ static EL_SPECIALISED void resolve_row(const el_sampled_target *target, uint32_t
         }
         mixed[word] = 0;
         for (uint32_t at = row * width + word * 32U; bits != 0; bits >>= 1, at++) {
-            if ((bits & 1U) != 0) {
-                resolve(target->target.colour + at, target->target.depth + at, target->samples + at * count, count);
+#if !defined(__ARM_ARCH_6M__)
+            const uint32_t skipped = (uint32_t)__builtin_ctz(bits);
+            bits >>= skipped;
+            at += skipped;
+#else
+            if ((bits & 1U) == 0) {
+                continue;
             }
+#endif
+            resolve(target->target.colour + at, target->target.depth + at, target->samples + at * count, count);
         }
     }
 }

@@ -20,24 +20,26 @@ typedef struct side {
     int32_t at[EL_MAX_SAMPLES];
 } side;
 
-/* A triangle under way. */
+/* A triangle under way, in its next row. What pixels need comes first: Thumb code reaches it at once there. */
 typedef struct small_sampled {
-    const el_sample_point *points;
-    int32_t y0, y1, y2; /* corners, 1/EL_SUBPIXELS px */
-    bool short_is_left;
-    uint16_t flat;
-    side straight, upper, lower;
     el_slopes slopes;
+    el_sampled_place at;
+    uint16_t flat;
+    uint8_t kind;
+    bool short_is_left;
     /* From the centre to each sample. */
     uint64_t z_at[EL_MAX_SAMPLES];
     uint32_t rgb_at[EL_MAX_SAMPLES][3];
+    side straight, upper, lower;
+    const el_sample_point *points;
+    int32_t y0, y1, y2; /* corners, 1/EL_SUBPIXELS px */
 } small_sampled;
 
 /* --- Set-up ------------------------------------------------------------------------------------------------------- */
 
-static EL_SPECIALISED void make_side(side *s, const el_corner *from, const el_corner *to, int32_t row,
-                                     const el_sample_point *points, uint32_t count)
+static EL_SPECIALISED void make_side(side *s, const el_corner *from, const el_corner *to, int32_t row, uint32_t count)
 {
+    const el_sample_point *const points = el_sample_points(count);
     if (from->y == to->y) {
         return; /* no sample's */
     }
@@ -60,190 +62,242 @@ static EL_SPECIALISED void make_side(side *s, const el_corner *from, const el_co
     s->most = most;
 }
 
-/* From the centre to sample k. */
-static EL_SPECIALISED void put_way(small_sampled *s, uint32_t k, uint64_t z, const uint32_t rgb[3], unsigned kind)
+static EL_APART void make_side_4(side *s, const el_corner *from, const el_corner *to, int32_t row)
 {
-    s->z_at[k] = z;
-    if ((kind & EL_FILL_COLOURS) != 0) {
-        s->rgb_at[k][0] = rgb[0];
-        s->rgb_at[k][1] = rgb[1];
-        s->rgb_at[k][2] = rgb[2];
-    }
+    make_side(s, from, to, row, 4);
 }
 
-static EL_SPECIALISED void make_values(small_sampled *s, const el_corner *const c[3], const el_small_frame *frame,
-                                       int32_t y, uint32_t count, unsigned kind)
+static EL_APART void make_side_8(side *s, const el_corner *from, const el_corner *to, int32_t row)
+{
+    make_side(s, from, to, row, 8);
+}
+
+static EL_APART void make_depth(small_sampled *s, const el_corner *const c[3], const el_small_frame *frame,
+                                uint32_t back, uint32_t count)
 {
     el_plane z;
     el_small_plane_make(&z, frame, c[0]->z, c[1]->z, c[2]->z);
-    /* The planes may begin below the first row with a sample. */
-    const uint32_t back = (uint32_t)(frame->row - y);
     s->slopes.first.z = z.value - el_multiply_u16(z.dy, back) + EL_HALF_Q32;
     s->slopes.per_column.z = z.dx;
     s->slopes.per_row.z = z.dy;
-    const uint64_t z_x = (uint64_t)((int64_t)z.dx >> EL_SUBPIXEL_BITS);
-    const uint64_t z_y = (uint64_t)((int64_t)z.dy >> EL_SUBPIXEL_BITS);
-    el_small_quotient per_x[3];
-    el_small_quotient per_y[3];
-    if ((kind & EL_FILL_COLOURS) != 0) {
-        el_channel rgb[3];
-        for (unsigned i = 0; i < 3; i++) {
-            el_small_channel_make_from(&rgb[i], frame, c[0]->rgb_q8[i], c[1]->rgb_q8[i], c[2]->rgb_q8[i], &per_x[i],
-                                       &per_y[i]);
-        }
-        s->slopes.first.red = rgb[0].value - rgb[0].dy * back;
-        s->slopes.first.green = rgb[1].value - rgb[1].dy * back;
-        s->slopes.first.blue = rgb[2].value - rgb[2].dy * back;
-        s->slopes.per_column.red = rgb[0].dx;
-        s->slopes.per_column.green = rgb[1].dx;
-        s->slopes.per_column.blue = rgb[2].dx;
-        s->slopes.per_row.red = rgb[0].dy;
-        s->slopes.per_row.green = rgb[1].dy;
-        s->slopes.per_row.blue = rgb[2].dy;
+    const uint64_t per_x = (uint64_t)((int64_t)z.dx >> EL_SUBPIXEL_BITS);
+    const uint64_t per_y = (uint64_t)((int64_t)z.dy >> EL_SUBPIXEL_BITS);
+    for (uint32_t k = 0; k < count; k++) {
+        s->z_at[k] = el_multiply_u64(per_x, s->points[k].x) + el_multiply_u64(per_y, s->points[k].y);
     }
-    /* Each of the latter two of four samples is opposite to one of the first two. */
-    for (uint32_t k = 0; k < (count == 4 ? 2U : count); k++) {
-        const int32_t x = s->points[k].x;
-        const int32_t down = s->points[k].y;
-        const uint64_t z_way = el_multiply_u64(z_x, x) + el_multiply_u64(z_y, down);
-        uint32_t way[3] = {0, 0, 0};
-        uint32_t back_way[3];
-        for (unsigned i = 0; i < 3 && (kind & EL_FILL_COLOURS) != 0; i++) {
-            way[i] = el_quotients_times(&per_x[i], x, &per_y[i], down);
-        }
-        put_way(s, k, z_way, way, kind);
-        if (count == 4) {
-            back_way[0] = 0U - way[0];
-            back_way[1] = 0U - way[1];
-            back_way[2] = 0U - way[2];
-            put_way(s, 3U - k, 0U - z_way, back_way, kind);
-        }
+}
+
+static EL_APART uint32_t make_channel(small_sampled *s, const el_small_frame *frame, const int32_t values[3],
+                                      unsigned i, uint32_t back, uint32_t count, uint32_t step[2])
+{
+    el_channel channel;
+    el_small_quotient per_x;
+    el_small_quotient per_y;
+    el_small_channel_make_from(&channel, frame, values[0], values[1], values[2], &per_x, &per_y);
+    step[0] = channel.dx;
+    step[1] = channel.dy;
+    for (uint32_t k = 0; k < count; k++) {
+        s->rgb_at[k][i] = el_quotients_times(&per_x, s->points[k].x, &per_y, s->points[k].y);
     }
+    return channel.value - channel.dy * back;
+}
+
+static void make_colours(small_sampled *s, const el_corner *const c[3], const el_small_frame *frame, uint32_t back,
+                         uint32_t count)
+{
+    uint32_t first[3];
+    uint32_t step[3][2];
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t values[3] = {c[0]->rgb_q8[i], c[1]->rgb_q8[i], c[2]->rgb_q8[i]};
+        first[i] = make_channel(s, frame, values, i, back, count, step[i]);
+    }
+    el_slopes *const slopes = &s->slopes;
+    slopes->first.red = first[0];
+    slopes->first.green = first[1];
+    slopes->first.blue = first[2];
+    slopes->per_column.red = step[0][0];
+    slopes->per_column.green = step[1][0];
+    slopes->per_column.blue = step[2][0];
+    slopes->per_row.red = step[0][1];
+    slopes->per_row.green = step[1][1];
+    slopes->per_row.blue = step[2][1];
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------- */
 
-/* Draws the samples of a pixel whose word of `masks` is all ones; others are 0. v: at its centre. */
-static EL_SPECIALISED void draw_samples(const small_sampled *s, const el_sampled_place *at, const el_values *v,
-                                        uint32_t x, const int32_t masks[EL_MAX_SAMPLES], uint32_t count, unsigned kind)
+/* Depth and colour at the centre of pixel x, which `way` is added to. */
+static EL_SPECIALISED uint32_t depth_at(const small_sampled *s, uint32_t x, uint64_t way)
 {
-    uint32_t first = 0;
-    while (masks[first] == 0) {
-        if (++first == count) {
+    return (uint32_t)((s->slopes.first.z + el_multiply_u16(s->slopes.per_column.z, x) + way) >> 32);
+}
+
+static EL_SPECIALISED uint32_t colour_at(const small_sampled *s, uint32_t x, const uint32_t way[3], unsigned kind)
+{
+    if ((kind & EL_FILL_COLOURS) == 0) {
+        return s->flat;
+    }
+    const el_slopes *const slopes = &s->slopes;
+    const el_values there = {
+        .red = slopes->first.red + slopes->per_column.red * x + way[0],
+        .green = slopes->first.green + slopes->per_column.green * x + way[1],
+        .blue = slopes->first.blue + slopes->per_column.blue * x + way[2],
+    };
+    return el_coloured(&there);
+}
+
+/* The lowest bit of a mask of four. */
+static const uint8_t lowest[16] = {0, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0};
+
+/* Draws the samples of `mask`, not 0 and not all, of pixel x. */
+static EL_SPECIALISED void draw_samples(const small_sampled *s, uint32_t x, uint32_t mask, uint32_t count,
+                                        unsigned kind)
+{
+    const uint32_t first = count == 4 || (mask & 15U) != 0 ? lowest[mask & 15U] : 4U + lowest[mask >> 4];
+    const el_sampled_place *const at = &s->at;
+    const uint32_t z = depth_at(s, x, s->z_at[first]);
+    const uint32_t old_depth = at->depth[x];
+    uint32_t *const samples = at->samples + x * count;
+    if (z >= old_depth) {
+        if (old_depth != 0 || !el_is_mixed(at, x)) {
             return;
         }
-    }
-    const uint32_t z = (uint32_t)((v->z + s->z_at[first]) >> 32);
-    const uint32_t old_depth = at->depth[x];
-    const bool mixed = z >= old_depth;
-    if (mixed && (old_depth != 0 || !el_is_mixed(at, x))) {
-        return;
-    }
-    uint32_t colour = s->flat;
-    if ((kind & EL_FILL_COLOURS) != 0) {
-        const uint32_t *const way = s->rgb_at[first];
-        const el_values there = {.red = v->red + way[0], .green = v->green + way[1], .blue = v->blue + way[2]};
-        colour = el_coloured(&there);
-    }
-    const uint32_t drawn = z << 16 | colour;
-    uint32_t *const samples = at->samples + x * count;
-    if (mixed) {
+        const uint32_t drawn = z << 16 | colour_at(s, x, s->rgb_at[first], kind);
         const uint32_t nearer = drawn | 0xFFFFU;
 #pragma GCC unroll 8
         for (uint32_t k = 0; k < count; k++) {
-            if (masks[k] != 0 && samples[k] > nearer) {
+            if ((mask >> k & 1U) != 0 && samples[k] > nearer) {
                 samples[k] = drawn;
             }
         }
         return;
     }
+    const uint32_t drawn = z << 16 | colour_at(s, x, s->rgb_at[first], kind);
     const uint32_t old = old_depth << 16 | at->colour[x];
-    const uint32_t change = old ^ drawn;
     at->depth[x] = 0;
     at->mixed[x / 32U] |= 1U << (x % 32U);
 #pragma GCC unroll 8
     for (uint32_t k = 0; k < count; k++) {
-        samples[k] = old ^ (change & (uint32_t)masks[k]);
+        samples[k] = (mask >> k & 1U) != 0 ? drawn : old;
     }
 }
 
-/* Pixels [x, x_end), none beyond one of the sides: samples are covered right of it, or, with `flip` -1, left of it. Values are at
- * the first, and then behind the last. */
-static EL_SPECIALISED void draw_beside(const small_sampled *s, const el_sampled_place *at, el_values *v, uint32_t x,
-                                       uint32_t x_end, const side *edge, int32_t flip, uint32_t count, unsigned kind)
+#define PIXELS(DO)                                                                                                     \
+    DO(coloured_4, EL_FILL_COLOURS | EL_FILL_DEPTH, 4)                                                                 \
+    DO(flat_4, EL_FILL_DEPTH, 4)                                                                                       \
+    DO(coloured_8, EL_FILL_COLOURS | EL_FILL_DEPTH, 8)                                                                 \
+    DO(flat_8, EL_FILL_DEPTH, 8)
+
+#define DEFINE(name, kind, count)                                                                                      \
+    static EL_APART void draw_##name(const small_sampled *s, uint32_t x, uint32_t mask)                                \
+    {                                                                                                                  \
+        draw_samples(s, x, mask, count, kind);                                                                         \
+    }
+PIXELS(DEFINE)
+
+static EL_SPECIALISED void draw_pixel(const small_sampled *s, uint32_t x, uint32_t mask, uint32_t count)
 {
-    for (; x < x_end; x++) {
+    if (s->kind == EL_FILL_DEPTH) {
+        (count == 4 ? draw_flat_4 : draw_flat_8)(s, x, mask);
+    } else {
+        (count == 4 ? draw_coloured_4 : draw_coloured_8)(s, x, mask);
+    }
+}
+
+/* Pixels [x, x_end), none beyond one of the sides: samples are covered right of it, or, where `flip` has all bits, left. */
+static EL_SPECIALISED void draw_beside(const small_sampled *s, uint32_t x, uint32_t x_end, const side *edge,
+                                       uint32_t flip, uint32_t count)
+{
+    while (x < x_end) {
         const uint32_t before = edge->x - ((x + 1U) << 20);
-        int32_t masks[EL_MAX_SAMPLES];
+        uint32_t mask = 0;
 #pragma GCC unroll 8
         for (uint32_t k = 0; k < count; k++) {
-            masks[k] = ((int32_t)(before + (uint32_t)edge->at[k]) >> 31) ^ flip;
+            mask |= (before + (uint32_t)edge->at[k]) >> 31 << k;
         }
-        draw_samples(s, at, v, x, masks, count, kind);
-        el_values_add(v, &s->slopes.per_column, kind);
+        mask ^= flip;
+        draw_pixel(s, x, mask, count);
+        x++;
     }
 }
 
 /* Pixels [x, x_end) between the crossings of each sample with both sides, which are equal where the row has no such sample. */
-static EL_SPECIALISED void draw_between(const small_sampled *s, const el_sampled_place *at, el_values *v, uint32_t x,
-                                        uint32_t x_end, const uint32_t *left, const uint32_t *right, uint32_t count,
-                                        unsigned kind)
+static EL_SPECIALISED void draw_between(const small_sampled *s, uint32_t x, uint32_t x_end, const uint32_t *left,
+                                        const uint32_t *right, uint32_t count)
 {
     for (; x < x_end; x++) {
         const uint32_t behind = (x + 1U) << 20;
-        int32_t masks[EL_MAX_SAMPLES];
-#pragma GCC unroll 8
+        uint32_t mask = 0;
         for (uint32_t k = 0; k < count; k++) {
-            masks[k] = ((int32_t)(left[k] - behind) & ~(int32_t)(right[k] - behind)) >> 31;
+            mask |= ((left[k] - behind) & ~(right[k] - behind)) >> 31 << k;
         }
-        draw_samples(s, at, v, x, masks, count, kind);
-        el_values_add(v, &s->slopes.per_column, kind);
+        if (mask != 0) {
+            draw_pixel(s, x, mask, count);
+        }
     }
 }
 
 /* Those of pixels [x, x_end) that are mixed, and covered as a whole. */
-static EL_SPECIALISED void draw_mixed(const small_sampled *s, const el_sampled_place *at, uint32_t x, uint32_t x_end,
-                                      uint32_t count, unsigned kind)
+static EL_APART void draw_mixed(const small_sampled *s, uint32_t x, uint32_t x_end, uint32_t count)
 {
+    static const uint32_t nowhere[3] = {0, 0, 0};
     for (; x < x_end; x++) {
-        if (!el_is_mixed(at, x)) {
+        if (!el_is_mixed(&s->at, x)) {
             continue;
         }
-        const el_values v = el_values_at(&s->slopes, (int32_t)x, kind);
-        const uint32_t z = (uint32_t)(v.z >> 32);
-        const uint32_t drawn = z << 16 | ((kind & EL_FILL_COLOURS) != 0 ? el_coloured(&v) : s->flat);
-        uint32_t *const samples = at->samples + x * count;
+        const uint32_t drawn = depth_at(s, x, 0) << 16 | colour_at(s, x, nowhere, s->kind);
+        uint32_t *const samples = s->at.samples + x * count;
         for (uint32_t k = 0; k < count; k++) {
             if (samples[k] > (drawn | 0xFFFFU)) {
                 samples[k] = drawn;
             }
         }
-        el_unmix(at, x, count);
+        el_unmix(&s->at, x, count);
     }
 }
 
-static EL_SPECIALISED void draw_inner(const small_sampled *s, const el_sampled_place *at, el_values *v, uint32_t x,
-                                      uint32_t x_end, uint32_t count, unsigned kind)
+/* Pixels [x, x_end), one at least, covered as a whole. */
+static EL_SPECIALISED void draw_inner(const small_sampled *s, uint32_t x, uint32_t x_end, unsigned kind)
 {
-    uint16_t *depth = at->depth + x;
-    const uint16_t *const end = at->depth + x_end;
-    const el_cursor cursor = {.to_colour = (uintptr_t)at->colour - (uintptr_t)at->depth};
+    uint16_t *depth = s->at.depth + x;
+    const uint16_t *const end = s->at.depth + x_end;
+    const el_cursor cursor = {.to_colour = (uintptr_t)s->at.colour - (uintptr_t)s->at.depth};
+    const el_values step = s->slopes.per_column;
+    const uint16_t flat = s->flat;
+    el_values v = el_values_at(&s->slopes, (int32_t)x, kind);
     do {
-        if (el_passes(v, depth, kind)) {
-            *el_colour_at(&cursor, depth) = (kind & EL_FILL_COLOURS) != 0 ? (uint16_t)el_coloured(v) : s->flat;
+        if (el_passes(&v, depth, kind)) {
+            *el_colour_at(&cursor, depth) = (kind & EL_FILL_COLOURS) != 0 ? (uint16_t)el_coloured(&v) : flat;
         }
-        el_values_add(v, &s->slopes.per_column, kind);
+        el_values_add(&v, &step, kind);
     } while (++depth != end);
-    if (el_any_is_mixed(at, x, x_end)) {
-        draw_mixed(s, at, x, x_end, count, kind);
+}
+
+static EL_APART void draw_inner_coloured(const small_sampled *s, uint32_t x, uint32_t x_end)
+{
+    draw_inner(s, x, x_end, EL_FILL_COLOURS | EL_FILL_DEPTH);
+}
+
+static EL_APART void draw_inner_flat(const small_sampled *s, uint32_t x, uint32_t x_end)
+{
+    draw_inner(s, x, x_end, EL_FILL_DEPTH);
+}
+
+static EL_SPECIALISED void draw_whole(const small_sampled *s, uint32_t x, uint32_t x_end, uint32_t count)
+{
+    if (s->kind == EL_FILL_DEPTH) {
+        draw_inner_flat(s, x, x_end);
+    } else {
+        draw_inner_coloured(s, x, x_end);
+    }
+    if (el_any_is_mixed(&s->at, x, x_end)) {
+        draw_mixed(s, x, x_end, count);
     }
 }
 
 /* --- Rows --------------------------------------------------------------------------------------------------------- */
 
-/* A row in which all samples have the same two sides. Returns how many pixels have samples in it. */
-static EL_SPECIALISED uint32_t draw_row(const small_sampled *s, const el_sampled_place *at, const side *left,
-                                        const side *right, uint32_t count, unsigned kind)
+/* A row in which all samples have the same two sides. Returns how many pixels may have samples in it. */
+static EL_SPECIALISED uint32_t draw_row(const small_sampled *s, const side *left, const side *right, uint32_t count)
 {
     const uint32_t begin = (left->x + (uint32_t)left->least) >> 20;
     const uint32_t inner = (left->x + (uint32_t)left->most) >> 20;
@@ -252,26 +306,24 @@ static EL_SPECIALISED uint32_t draw_row(const small_sampled *s, const el_sampled
     if (begin >= end) {
         return 0;
     }
-    el_values v = el_values_at(&s->slopes, (int32_t)begin, kind);
     if (inner < inner_end) {
-        draw_beside(s, at, &v, begin, inner, left, 0, count, kind);
-        draw_inner(s, at, &v, inner, inner_end, count, kind);
-        draw_beside(s, at, &v, inner_end, end, right, -1, count, kind);
-    } else {
-        uint32_t lefts[EL_MAX_SAMPLES];
-        uint32_t rights[EL_MAX_SAMPLES];
-        for (uint32_t k = 0; k < count; k++) {
-            lefts[k] = left->x + (uint32_t)left->at[k];
-            rights[k] = right->x + (uint32_t)right->at[k];
-        }
-        draw_between(s, at, &v, begin, end, lefts, rights, count, kind);
+        draw_beside(s, begin, inner, left, 0, count);
+        draw_whole(s, inner, inner_end, count);
+        draw_beside(s, inner_end, end, right, (1U << count) - 1U, count);
+        return end - begin;
     }
+    uint32_t lefts[EL_MAX_SAMPLES];
+    uint32_t rights[EL_MAX_SAMPLES];
+    for (uint32_t k = 0; k < count; k++) {
+        lefts[k] = left->x + (uint32_t)left->at[k];
+        rights[k] = right->x + (uint32_t)right->at[k];
+    }
+    draw_between(s, begin, end, lefts, rights, count);
     return end - begin;
 }
 
 /* Any other row y. */
-static EL_SPECIALISED uint32_t draw_corner_row(const small_sampled *s, const el_sampled_place *at, int32_t y,
-                                               uint32_t count, unsigned kind)
+static EL_SPECIALISED uint32_t draw_corner_row(const small_sampled *s, int32_t y, uint32_t count)
 {
     uint32_t lefts[EL_MAX_SAMPLES];
     uint32_t rights[EL_MAX_SAMPLES];
@@ -300,69 +352,99 @@ static EL_SPECIALISED uint32_t draw_corner_row(const small_sampled *s, const el_
     if (begin >= end) {
         return 0;
     }
-    el_values v = el_values_at(&s->slopes, (int32_t)begin, kind);
     uint32_t x = begin;
     if (inner < inner_end) {
-        draw_between(s, at, &v, begin, inner, lefts, rights, count, kind);
-        draw_inner(s, at, &v, inner, inner_end, count, kind);
+        draw_between(s, begin, inner, lefts, rights, count);
+        draw_whole(s, inner, inner_end, count);
         x = inner_end;
     }
-    draw_between(s, at, &v, x, end, lefts, rights, count, kind);
+    draw_between(s, x, end, lefts, rights, count);
     return end - begin;
 }
 
-static EL_SPECIALISED void draw(small_sampled *s, const el_sampled_target *target, int32_t y, int32_t y_end,
-                                el_stats *stats, uint32_t count, unsigned kind)
+/* Four functions, each with what is the same in it. */
+static EL_APART uint32_t draw_row_4(const small_sampled *s, const side *left, const side *right)
 {
+    return draw_row(s, left, right, 4);
+}
+
+static EL_APART uint32_t draw_row_8(const small_sampled *s, const side *left, const side *right)
+{
+    return draw_row(s, left, right, 8);
+}
+
+static EL_APART uint32_t draw_corner_row_4(const small_sampled *s, int32_t y)
+{
+    return draw_corner_row(s, y, 4);
+}
+
+static EL_APART uint32_t draw_corner_row_8(const small_sampled *s, int32_t y)
+{
+    return draw_corner_row(s, y, 8);
+}
+
+static void draw_rows(small_sampled *s, const el_sampled_target *target, int32_t y, int32_t y_end, el_stats *stats)
+{
+    const uint32_t count = target->count;
     const int32_t reach = el_samples_reach(count);
     const int32_t upper = el_first_centre(s->y0 + reach);
     const int32_t upper_end = el_first_centre(s->y1 - reach);
     const int32_t lower = el_first_centre(s->y1 + reach);
     const int32_t lower_end = el_first_centre(s->y2 - reach);
+    const uint32_t width = (uint32_t)target->target.width;
     uint32_t pixels = 0;
     uint32_t spans = 0;
-    el_sampled_place at = el_sampled_place_at(target, y);
     el_count(&stats->rows, (uint32_t)(y_end - y));
     for (; y < y_end; y++) {
         uint32_t drawn;
         const bool is_upper = y >= upper && y < upper_end;
         if (is_upper || (y >= lower && y < lower_end)) {
             const side *const bent = is_upper ? &s->upper : &s->lower;
-            drawn = draw_row(s, &at, s->short_is_left ? bent : &s->straight, s->short_is_left ? &s->straight : bent,
-                             count, kind);
+            const side *const left = s->short_is_left ? bent : &s->straight;
+            const side *const right = s->short_is_left ? &s->straight : bent;
+            drawn = count == 4 ? draw_row_4(s, left, right) : draw_row_8(s, left, right);
         } else {
-            drawn = draw_corner_row(s, &at, y, count, kind);
+            drawn = count == 4 ? draw_corner_row_4(s, y) : draw_corner_row_8(s, y);
         }
         pixels += drawn;
         spans += drawn != 0;
         s->straight.x += s->straight.step;
         s->upper.x += s->upper.step;
         s->lower.x += s->lower.step;
-        el_values_add(&s->slopes.first, &s->slopes.per_row, kind);
-        at.colour += target->target.width;
-        at.depth += target->target.width;
-        at.mixed += EL_MIXED_WORDS((uint32_t)target->target.width);
-        at.samples += (uint32_t)target->target.width * count;
+        el_values_add(&s->slopes.first, &s->slopes.per_row, EL_FILL_COLOURS | EL_FILL_DEPTH);
+        s->at.colour += width;
+        s->at.depth += width;
+        s->at.mixed += EL_MIXED_WORDS(width);
+        s->at.samples += width * count;
     }
     el_count(&stats->pixels, pixels);
     el_count(&stats->spans, spans);
 }
 
-static EL_SPECIALISED void draw_triangle(const el_corner *const corners[3], const el_small_shape *shape, int32_t area,
-                                         const el_surface *surface, const el_sampled_target *target, int32_t y,
-                                         int32_t y_end, el_stats *stats, uint32_t count, unsigned kind)
+void el_small_sampled_draw(const el_corner *const corners[3], const el_small_shape *shape, int32_t area,
+                           const el_surface *surface, const el_sampled_target *target, int32_t y, int32_t y_end,
+                           el_stats *stats)
 {
+    const uint32_t count = target->count;
     small_sampled s;
+    s.at = el_sampled_place_at(target, y);
     s.points = el_sample_points(count);
     s.y0 = corners[0]->y;
     s.y1 = corners[1]->y;
     s.y2 = corners[2]->y;
     s.short_is_left = area < 0;
     s.flat = surface->colour;
+    s.kind = el_fill_kind(surface);
     s.upper.x = s.upper.step = s.lower.x = s.lower.step = 0;
-    make_side(&s.straight, corners[0], corners[2], y, s.points, count);
-    make_side(&s.upper, corners[0], corners[1], y, s.points, count);
-    make_side(&s.lower, corners[1], corners[2], y, s.points, count);
+    if (count == 4) {
+        make_side_4(&s.straight, corners[0], corners[2], y);
+        make_side_4(&s.upper, corners[0], corners[1], y);
+        make_side_4(&s.lower, corners[1], corners[2], y);
+    } else {
+        make_side_8(&s.straight, corners[0], corners[2], y);
+        make_side_8(&s.upper, corners[0], corners[1], y);
+        make_side_8(&s.lower, corners[1], corners[2], y);
+    }
     const el_small_frame frame = {
         .shape = *shape,
         .x0 = corners[0]->x,
@@ -370,37 +452,15 @@ static EL_SPECIALISED void draw_triangle(const el_corner *const corners[3], cons
         .row = el_max_i32(y, el_first_centre(corners[0]->y)),
         .area = el_small_divisor_make(area),
     };
-    make_values(&s, corners, &frame, y, count, kind);
-    draw(&s, target, y, y_end, stats, count, kind);
-}
-
-#define KINDS(DO)                                                                                                      \
-    DO(coloured_4, EL_FILL_COLOURS | EL_FILL_DEPTH, 4)                                                                 \
-    DO(coloured_8, EL_FILL_COLOURS | EL_FILL_DEPTH, 8)                                                                 \
-    DO(flat_4, EL_FILL_DEPTH, 4)                                                                                       \
-    DO(flat_8, EL_FILL_DEPTH, 8)
-
-#define DEFINE(name, kind, samples)                                                                                      \
-    static __attribute__((noinline)) void draw_##name(                                                                 \
-        const el_corner *const corners[3], const el_small_shape *shape, int32_t area, const el_surface *surface,       \
-        const el_sampled_target *target, int32_t y, int32_t y_end, el_stats *stats)                                    \
-    {                                                                                                                  \
-        draw_triangle(corners, shape, area, surface, target, y, y_end, stats, samples, kind);                          \
+    /* The planes may begin below the first row with a sample. */
+    const uint32_t back = (uint32_t)(frame.row - y);
+    make_depth(&s, corners, &frame, back, count);
+    s.slopes.per_row.red = s.slopes.per_row.green = s.slopes.per_row.blue = 0;
+    s.slopes.first.red = s.slopes.first.green = s.slopes.first.blue = 0;
+    if (s.kind != EL_FILL_DEPTH) {
+        make_colours(&s, corners, &frame, back, count);
     }
-KINDS(DEFINE)
-
-void el_small_sampled_draw(const el_corner *const corners[3], const el_small_shape *shape, int32_t area,
-                           const el_surface *surface, const el_sampled_target *target, int32_t y, int32_t y_end,
-                           el_stats *stats)
-{
-    const unsigned asked = el_fill_kind(surface);
-    const unsigned count = target->count;
-#define CALL(name, kind, samples)                                                                                       \
-    if (asked == (kind) && count == (samples)) {                                                                 \
-        draw_##name(corners, shape, area, surface, target, y, y_end, stats);                                           \
-        return;                                                                                                        \
-    }
-    KINDS(CALL)
+    draw_rows(&s, target, y, y_end, stats);
 }
 
 #endif
