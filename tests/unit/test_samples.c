@@ -4,6 +4,7 @@
 
 #include "any_triangle.h"
 #include "raster/samples.h"
+#include "raster/small_sampled.h"
 
 void setUp(void)
 {
@@ -33,6 +34,18 @@ static el_sampled_target empty_target(unsigned count)
         .samples = samples,
         .count = count,
     };
+}
+
+static el_sampled_rest draw_sampled(const el_corner corners[3], const el_surface *surface,
+                                    const el_sampled_target *target)
+{
+    el_stats stats = {0};
+#if EL_WITH_SMALL_SAMPLED
+    el_small_sampled place;
+    return el_sampled_draw(corners, surface, target, &stats, &place);
+#else
+    return el_sampled_draw(corners, surface, target, &stats, NULL);
+#endif
 }
 
 /* Depth and colour of a sample, wherever they are. */
@@ -151,8 +164,7 @@ static void check_pixel(const seeded *s, const el_sampled_target *target, const 
 static void check_triangle(const seeded *s, const el_corner c[3], const el_surface *surface, unsigned count)
 {
     const el_sampled_target target = empty_target(count);
-    el_stats stats = {0};
-    const bool goes_on = el_sampled_draw(c, surface, &target, &stats);
+    const bool goes_on = draw_sampled(c, surface, &target) != EL_SAMPLED_DONE;
     bool any_below_band = false;
     for (int32_t x = 0; x < WIDTH; x++) {
         for (int32_t y = TOP; y < TOP + ROWS; y++) {
@@ -199,9 +211,8 @@ static void test_shared_edges_leave_and_repeat_nothing(void)
         }
         const unsigned count = s.round % 2 == 0 ? 4 : 8;
         const el_sampled_target target = empty_target(count);
-        el_stats stats = {0};
-        (void)el_sampled_draw(a, &first, &target, &stats);
-        (void)el_sampled_draw(b, &second, &target, &stats);
+        (void)draw_sampled(a, &first, &target);
+        (void)draw_sampled(b, &second, &target);
         for (int32_t i = 0; i < PIXELS; i++) {
             const int32_t x = i % WIDTH;
             const int32_t y = TOP + i / WIDTH;
@@ -239,8 +250,7 @@ static void test_triangles_over_each_other(void)
             const uint16_t z = (uint16_t)any_below(&s, 6);
             c[0].z = c[1].z = c[2].z = z;
             const el_surface surface = {.depth = any_below(&s, 4) != 0, .colour = (uint16_t)any_u64(&s)};
-            el_stats stats = {0};
-            (void)el_sampled_draw(c, &surface, &target, &stats);
+            (void)draw_sampled(c, &surface, &target);
             for (int32_t i = 0; i < PIXELS; i++) {
                 for (unsigned k = 0; k < count; k++) {
                     uint32_t *const sample = &plain[(uint32_t)i * count + k];

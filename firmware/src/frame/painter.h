@@ -10,8 +10,10 @@
 #include "base/stats.h"
 #include "raster/list.h"
 
-/* What sizes of states there are: one for each el_shading, and that of tiny triangles, which small code has not. */
+/* What sizes of states there are: one for each el_shading, and that of tiny triangles, which small code has not. Where pixels
+ * have several samples, there is one size. */
 typedef enum el_state_kind {
+    EL_STATE_SAMPLED = EL_SHADE_FLAT,
     EL_STATE_TINY = EL_SHADE_OVERDRAW + 1,
     EL_STATE_KINDS = EL_SHADE_OVERDRAW + (EL_SMALL_CODE ? 1 : 2)
 } el_state_kind;

@@ -400,8 +400,8 @@ static bool is_small(const el_corner *const sorted[3], int32_t reach, const el_s
 }
 #endif
 
-bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
-                     el_stats *stats)
+el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface,
+                                const el_sampled_target *target, el_stats *stats, el_small_sampled *place)
 {
     const el_corner *sorted[3];
     el_triangle_sort(corners, sorted);
@@ -412,20 +412,25 @@ bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, cons
     const int32_t xs[3] = {sorted[0]->x, sorted[1]->x, sorted[2]->x};
     const int32_t ys[3] = {sorted[0]->y, sorted[1]->y, sorted[2]->y};
     const int64_t area = el_doubled_area(xs, ys);
-    if (y >= y_end || area == 0) {
-        return area != 0 && y_last > target->target.y_end;
+    if (area == 0 || y >= y_last) {
+        return EL_SAMPLED_DONE;
+    }
+    if (y >= y_end) {
+        return EL_SAMPLED_GOES_ON;
     }
 #if EL_WITH_SMALL_SAMPLED
     const unsigned kind = el_fill_kind(surface);
     el_small_shape shape;
     if ((kind == EL_FILL_DEPTH || kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) &&
         is_small(sorted, reach, target, &shape)) {
-        el_small_sampled_draw(sorted, &shape, (int32_t)area, surface, target, y, y_end, stats);
-        return y_last > target->target.y_end;
+        el_small_sampled_setup(place, sorted, &shape, (int32_t)area, surface, target->count, y);
+        return el_small_sampled_go_on(place, target, stats) ? EL_SAMPLED_CARRIED : EL_SAMPLED_DONE;
     }
+#else
+    (void)place;
 #endif
     draw_any(sorted, area, surface, target, y, y_end, y_last, stats);
-    return y_last > target->target.y_end;
+    return y_last > target->target.y_end ? EL_SAMPLED_GOES_ON : EL_SAMPLED_DONE;
 }
 
 #endif

@@ -47,9 +47,20 @@ typedef struct el_sampled_target {
 /* The standard pattern of 4 or 8 samples: one in each of so many rows, and in each of so many columns. */
 const el_sample_point *el_sample_points(unsigned count);
 
-/* Draws the rows of a triangle that lie in the target. Returns whether it has samples below them. */
-bool el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
-                     el_stats *stats);
+/* 1 where most triangles can be carried on from one target to the next. */
+#define EL_WITH_SMALL_SAMPLED (EL_WITH_SAMPLES && EL_WITH_SMALL_PLANES)
+
+typedef struct el_small_sampled el_small_sampled; /* small_sampled.h */
+
+typedef enum el_sampled_rest {
+    EL_SAMPLED_DONE,
+    EL_SAMPLED_GOES_ON, /* it has rows below the target, for which it is to be set up again */
+    EL_SAMPLED_CARRIED  /* the same, but what is needed for them is in `place` */
+} el_sampled_rest;
+
+/* Draws the rows of a triangle that lie in the target. `place`: memory for one under way. */
+el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface,
+                                const el_sampled_target *target, el_stats *stats, el_small_sampled *place);
 
 /* Makes one colour of each mixed pixel's, the mean of each of RGB565's channels, rounded to nearest and half a unit up, and
  * one depth, the nearest. No pixel is mixed then. */

@@ -12,28 +12,8 @@
 
 #if EL_WITH_SMALL_SAMPLED
 
-/* An edge in the next row, for all samples, Q20 modulo 2^32: of sample k it is x + at[k], whose whole part is the first pixel
- * of which that sample is not left of the edge. */
-typedef struct side {
-    uint32_t x, step;
-    int32_t least, most; /* of at[] */
-    int32_t at[EL_MAX_SAMPLES];
-} side;
-
-/* A triangle under way, in its next row. What pixels need comes first: Thumb code reaches it at once there. */
-typedef struct small_sampled {
-    el_slopes slopes;
-    el_sampled_place at;
-    uint16_t flat;
-    uint8_t kind;
-    bool short_is_left;
-    /* From the centre to each sample. */
-    uint64_t z_at[EL_MAX_SAMPLES];
-    uint32_t rgb_at[EL_MAX_SAMPLES][3];
-    side straight, upper, lower;
-    const el_sample_point *points;
-    int32_t y0, y1, y2; /* corners, 1/EL_SUBPIXELS px */
-} small_sampled;
+typedef el_sampled_side side;
+typedef el_small_sampled small_sampled;
 
 /* --- Set-up ------------------------------------------------------------------------------------------------------- */
 
@@ -383,25 +363,26 @@ static EL_APART uint32_t draw_corner_row_8(const small_sampled *s, int32_t y)
     return draw_corner_row(s, y, 8);
 }
 
-static void draw_rows(small_sampled *s, const el_sampled_target *target, int32_t y, int32_t y_end, el_stats *stats)
+/* Down to the target's last row, or the triangle's. Returns whether it goes on below. */
+bool el_small_sampled_go_on(el_small_sampled *s, const el_sampled_target *target, el_stats *stats)
 {
     const uint32_t count = target->count;
-    const int32_t reach = el_samples_reach(count);
-    const int32_t upper = el_first_centre(s->y0 + reach);
-    const int32_t upper_end = el_first_centre(s->y1 - reach);
-    const int32_t lower = el_first_centre(s->y1 + reach);
-    const int32_t lower_end = el_first_centre(s->y2 - reach);
+    const int32_t y_last = s->y_end;
+    const int32_t y_end = el_min_i32(y_last, target->target.y_end);
     const uint32_t width = (uint32_t)target->target.width;
+    const bool short_is_left = s->short_is_left;
+    int32_t y = s->y;
     uint32_t pixels = 0;
     uint32_t spans = 0;
+    s->at = el_sampled_place_at(target, y);
     el_count(&stats->rows, (uint32_t)(y_end - y));
     for (; y < y_end; y++) {
         uint32_t drawn;
-        const bool is_upper = y >= upper && y < upper_end;
-        if (is_upper || (y >= lower && y < lower_end)) {
+        const bool is_upper = y >= s->upper_begin && y < s->upper_end;
+        if (is_upper || (y >= s->lower_begin && y < s->lower_end)) {
             const side *const bent = is_upper ? &s->upper : &s->lower;
-            const side *const left = s->short_is_left ? bent : &s->straight;
-            const side *const right = s->short_is_left ? &s->straight : bent;
+            const side *const left = short_is_left ? bent : &s->straight;
+            const side *const right = short_is_left ? &s->straight : bent;
             drawn = count == 4 ? draw_row_4(s, left, right) : draw_row_8(s, left, right);
         } else {
             drawn = count == 4 ? draw_corner_row_4(s, y) : draw_corner_row_8(s, y);
@@ -411,39 +392,44 @@ static void draw_rows(small_sampled *s, const el_sampled_target *target, int32_t
         s->straight.x += s->straight.step;
         s->upper.x += s->upper.step;
         s->lower.x += s->lower.step;
-        el_values_add(&s->slopes.first, &s->slopes.per_row, EL_FILL_COLOURS | EL_FILL_DEPTH);
+        el_values_add(&s->slopes.first, &s->slopes.per_row, s->kind);
         s->at.colour += width;
         s->at.depth += width;
         s->at.mixed += EL_MIXED_WORDS(width);
         s->at.samples += width * count;
     }
+    s->y = (int16_t)y;
     el_count(&stats->pixels, pixels);
     el_count(&stats->spans, spans);
+    return y < y_last;
 }
 
-void el_small_sampled_draw(const el_corner *const corners[3], const el_small_shape *shape, int32_t area,
-                           const el_surface *surface, const el_sampled_target *target, int32_t y, int32_t y_end,
-                           el_stats *stats)
+void el_small_sampled_setup(el_small_sampled *s, const el_corner *const corners[3], const el_small_shape *shape,
+                            int32_t area, const el_surface *surface, uint32_t count, int32_t y)
 {
-    const uint32_t count = target->count;
-    small_sampled s;
-    s.at = el_sampled_place_at(target, y);
-    s.points = el_sample_points(count);
-    s.y0 = corners[0]->y;
-    s.y1 = corners[1]->y;
-    s.y2 = corners[2]->y;
-    s.short_is_left = area < 0;
-    s.flat = surface->colour;
-    s.kind = el_fill_kind(surface);
-    s.upper.x = s.upper.step = s.lower.x = s.lower.step = 0;
+    const int32_t reach = el_samples_reach(count);
+    s->points = el_sample_points(count);
+    s->y = (int16_t)y;
+    s->y0 = corners[0]->y;
+    s->y1 = corners[1]->y;
+    s->y2 = corners[2]->y;
+    s->y_end = (int16_t)el_first_centre(s->y2 + reach);
+    s->upper_begin = (int16_t)el_first_centre(s->y0 + reach);
+    s->upper_end = (int16_t)el_first_centre(s->y1 - reach);
+    s->lower_begin = (int16_t)el_first_centre(s->y1 + reach);
+    s->lower_end = (int16_t)el_first_centre(s->y2 - reach);
+    s->short_is_left = area < 0;
+    s->flat = surface->colour;
+    s->kind = el_fill_kind(surface);
+    s->upper.x = s->upper.step = s->lower.x = s->lower.step = 0;
     if (count == 4) {
-        make_side_4(&s.straight, corners[0], corners[2], y);
-        make_side_4(&s.upper, corners[0], corners[1], y);
-        make_side_4(&s.lower, corners[1], corners[2], y);
+        make_side_4(&s->straight, corners[0], corners[2], y);
+        make_side_4(&s->upper, corners[0], corners[1], y);
+        make_side_4(&s->lower, corners[1], corners[2], y);
     } else {
-        make_side_8(&s.straight, corners[0], corners[2], y);
-        make_side_8(&s.upper, corners[0], corners[1], y);
-        make_side_8(&s.lower, corners[1], corners[2], y);
+        make_side_8(&s->straight, corners[0], corners[2], y);
+        make_side_8(&s->upper, corners[0], corners[1], y);
+        make_side_8(&s->lower, corners[1], corners[2], y);
     }
     const el_small_frame frame = {
         .shape = *shape,
@@ -454,13 +440,10 @@ void el_small_sampled_draw(const el_corner *const corners[3], const el_small_sha
     };
     /* The planes may begin below the first row with a sample. */
     const uint32_t back = (uint32_t)(frame.row - y);
-    make_depth(&s, corners, &frame, back, count);
-    s.slopes.per_row.red = s.slopes.per_row.green = s.slopes.per_row.blue = 0;
-    s.slopes.first.red = s.slopes.first.green = s.slopes.first.blue = 0;
-    if (s.kind != EL_FILL_DEPTH) {
-        make_colours(&s, corners, &frame, back, count);
+    make_depth(s, corners, &frame, back, count);
+    if (s->kind != EL_FILL_DEPTH) {
+        make_colours(s, corners, &frame, back, count);
     }
-    draw_rows(&s, target, y, y_end, stats);
 }
 
 #endif
