@@ -76,8 +76,13 @@ static EL_APART uint32_t make_channel(small_sampled *s, const el_small_frame *fr
     el_small_channel_make_from(&channel, frame, values[0], values[1], values[2], &per_x, &per_y);
     step[0] = channel.dx;
     step[1] = channel.dy;
-    for (uint32_t k = 0; k < count; k++) {
-        s->rgb_at[k][i] = el_quotients_times(&per_x, s->points[k].x, &per_y, s->points[k].y);
+    /* Each of the latter two of four samples is opposite to one of the first two. */
+    for (uint32_t k = 0; k < (count == 4 ? 2U : count); k++) {
+        const uint32_t way = el_quotients_times(&per_x, s->points[k].x, &per_y, s->points[k].y);
+        s->rgb_at[k][i] = way;
+        if (count == 4) {
+            s->rgb_at[3U - k][i] = 0U - way;
+        }
     }
     return channel.value - channel.dy * back;
 }
@@ -207,6 +212,7 @@ static EL_SPECIALISED void draw_between(const small_sampled *s, uint32_t x, uint
     for (; x < x_end; x++) {
         const uint32_t behind = (x + 1U) << 20;
         uint32_t mask = 0;
+#pragma GCC unroll 8
         for (uint32_t k = 0; k < count; k++) {
             mask |= ((left[k] - behind) & ~(right[k] - behind)) >> 31 << k;
         }
@@ -294,6 +300,7 @@ static EL_SPECIALISED uint32_t draw_row(const small_sampled *s, const side *left
     }
     uint32_t lefts[EL_MAX_SAMPLES];
     uint32_t rights[EL_MAX_SAMPLES];
+#pragma GCC unroll 4
     for (uint32_t k = 0; k < count; k++) {
         lefts[k] = left->x + (uint32_t)left->at[k];
         rights[k] = right->x + (uint32_t)right->at[k];
@@ -305,14 +312,16 @@ static EL_SPECIALISED uint32_t draw_row(const small_sampled *s, const side *left
 /* Any other row y. */
 static EL_SPECIALISED uint32_t draw_corner_row(const small_sampled *s, int32_t y, uint32_t count)
 {
+    const el_sample_point *const points = el_sample_points(count);
     uint32_t lefts[EL_MAX_SAMPLES];
     uint32_t rights[EL_MAX_SAMPLES];
     uint32_t begin = UINT32_MAX;
     uint32_t inner = 0;
     uint32_t inner_end = UINT32_MAX;
     uint32_t end = 0;
+#pragma GCC unroll 4
     for (uint32_t k = 0; k < count; k++) {
-        const int32_t sample_y = y * EL_SUBPIXELS + EL_SUBPIXELS / 2 + s->points[k].y;
+        const int32_t sample_y = y * EL_SUBPIXELS + EL_SUBPIXELS / 2 + points[k].y;
         lefts[k] = 0;
         rights[k] = 0;
         if (sample_y < s->y0 || sample_y >= s->y2) {
@@ -342,66 +351,82 @@ static EL_SPECIALISED uint32_t draw_corner_row(const small_sampled *s, int32_t y
     return end - begin;
 }
 
-/* Four functions, each with what is the same in it. */
-static EL_APART uint32_t draw_row_4(const small_sampled *s, const side *left, const side *right)
+static EL_SPECIALISED void next_row(small_sampled *s, uint32_t width, uint32_t count)
 {
-    return draw_row(s, left, right, 4);
+    el_values_add(&s->slopes.first, &s->slopes.per_row, EL_FILL_COLOURS | EL_FILL_DEPTH);
+    s->at.colour += width;
+    s->at.depth += width;
+    s->at.mixed += EL_MIXED_WORDS(width);
+    s->at.samples += width * count;
 }
 
-static EL_APART uint32_t draw_row_8(const small_sampled *s, const side *left, const side *right)
+/* What rows have drawn, for the statistics. */
+typedef struct drawn {
+    uint32_t pixels, spans;
+} drawn;
+
+/* `rows` rows in which all samples have the same two sides, one at least. */
+static EL_SPECIALISED void draw_part(small_sampled *s, side *left, side *right, int32_t rows, uint32_t width,
+                                     drawn *sum, uint32_t count)
 {
-    return draw_row(s, left, right, 8);
+    do {
+        const uint32_t pixels = draw_row(s, left, right, count);
+        sum->pixels += pixels;
+        sum->spans += pixels != 0;
+        left->x += left->step;
+        right->x += right->step;
+        next_row(s, width, count);
+    } while (--rows > 0);
 }
 
-static EL_APART uint32_t draw_corner_row_4(const small_sampled *s, int32_t y)
+static EL_SPECIALISED int32_t draw_rows(small_sampled *s, int32_t y_end, uint32_t width, drawn *sum, uint32_t count)
 {
-    return draw_corner_row(s, y, 4);
-}
-
-static EL_APART uint32_t draw_corner_row_8(const small_sampled *s, int32_t y)
-{
-    return draw_corner_row(s, y, 8);
-}
-
-/* Down to the target's last row, or the triangle's. Returns whether it goes on below. */
-bool el_small_sampled_go_on(el_small_sampled *s, const el_sampled_target *target, el_stats *stats)
-{
-    const uint32_t count = target->count;
-    const int32_t y_last = s->y_end;
-    const int32_t y_end = el_min_i32(y_last, target->target.y_end);
-    const uint32_t width = (uint32_t)target->target.width;
-    const bool short_is_left = s->short_is_left;
     int32_t y = s->y;
-    uint32_t pixels = 0;
-    uint32_t spans = 0;
-    s->at = el_sampled_place_at(target, y);
-    el_count(&stats->rows, (uint32_t)(y_end - y));
-    for (; y < y_end; y++) {
-        uint32_t drawn;
+    while (y < y_end) {
         const bool is_upper = y >= s->upper_begin && y < s->upper_end;
         if (is_upper || (y >= s->lower_begin && y < s->lower_end)) {
-            const side *const bent = is_upper ? &s->upper : &s->lower;
-            const side *const left = short_is_left ? bent : &s->straight;
-            const side *const right = short_is_left ? &s->straight : bent;
-            drawn = count == 4 ? draw_row_4(s, left, right) : draw_row_8(s, left, right);
-        } else {
-            drawn = count == 4 ? draw_corner_row_4(s, y) : draw_corner_row_8(s, y);
+            side *const bent = is_upper ? &s->upper : &s->lower;
+            side *const other = is_upper ? &s->lower : &s->upper;
+            const int32_t rows = el_min_i32(y_end, is_upper ? s->upper_end : s->lower_end) - y;
+            draw_part(s, s->short_is_left ? bent : &s->straight, s->short_is_left ? &s->straight : bent, rows, width,
+                      sum, count);
+            other->x += other->step * (uint32_t)rows;
+            y += rows;
+            continue;
         }
-        pixels += drawn;
-        spans += drawn != 0;
+        const uint32_t pixels = draw_corner_row(s, y, count);
+        sum->pixels += pixels;
+        sum->spans += pixels != 0;
         s->straight.x += s->straight.step;
         s->upper.x += s->upper.step;
         s->lower.x += s->lower.step;
-        el_values_add(&s->slopes.first, &s->slopes.per_row, s->kind);
-        s->at.colour += width;
-        s->at.depth += width;
-        s->at.mixed += EL_MIXED_WORDS(width);
-        s->at.samples += width * count;
+        next_row(s, width, count);
+        y++;
     }
-    s->y = (int16_t)y;
-    el_count(&stats->pixels, pixels);
-    el_count(&stats->spans, spans);
-    return y < y_last;
+    return y;
+}
+
+static EL_APART int32_t draw_rows_4(small_sampled *s, int32_t y_end, uint32_t width, drawn *sum)
+{
+    return draw_rows(s, y_end, width, sum, 4);
+}
+
+static EL_APART int32_t draw_rows_8(small_sampled *s, int32_t y_end, uint32_t width, drawn *sum)
+{
+    return draw_rows(s, y_end, width, sum, 8);
+}
+
+bool el_small_sampled_go_on(el_small_sampled *s, const el_sampled_target *target, el_stats *stats)
+{
+    const int32_t y_end = el_min_i32(s->y_end, target->target.y_end);
+    const uint32_t width = (uint32_t)target->target.width;
+    drawn sum = {0, 0};
+    s->at = el_sampled_place_at(target, s->y);
+    el_count(&stats->rows, (uint32_t)(y_end - s->y));
+    s->y = (int16_t)(target->count == 4 ? draw_rows_4(s, y_end, width, &sum) : draw_rows_8(s, y_end, width, &sum));
+    el_count(&stats->pixels, sum.pixels);
+    el_count(&stats->spans, sum.spans);
+    return s->y < s->y_end;
 }
 
 void el_small_sampled_setup(el_small_sampled *s, const el_corner *const corners[3], const el_small_shape *shape,
@@ -441,6 +466,8 @@ void el_small_sampled_setup(el_small_sampled *s, const el_corner *const corners[
     /* The planes may begin below the first row with a sample. */
     const uint32_t back = (uint32_t)(frame.row - y);
     make_depth(s, corners, &frame, back, count);
+    s->slopes.first.red = s->slopes.first.green = s->slopes.first.blue = 0;
+    s->slopes.per_row.red = s->slopes.per_row.green = s->slopes.per_row.blue = 0;
     if (s->kind != EL_FILL_DEPTH) {
         make_colours(s, corners, &frame, back, count);
     }
