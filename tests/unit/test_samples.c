@@ -53,7 +53,8 @@ static uint32_t sample_at(const el_sampled_target *target, int32_t x, int32_t y,
 {
     const uint32_t pixel = (uint32_t)((y - TOP) * WIDTH + x);
     if ((mixed[(uint32_t)(y - TOP) * EL_MIXED_WORDS(WIDTH) + (uint32_t)x / 32U] >> (x % 32) & 1U) != 0) {
-        return samples[pixel * target->count + k];
+        const uint32_t mask = colours[pixel];
+        return samples[pixel * target->count + (mask == 0 ? k : (mask >> k & 1U) ^ 1U)];
     }
     return (uint32_t)depths[pixel] << 16 | colours[pixel];
 }

@@ -231,13 +231,16 @@ static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, 
             return;
         }
     }
-    if (!mixed) {
+    if (mixed) {
+        el_spread(at, x, count);
+    } else {
         const uint32_t old = (uint32_t)at->depth[x] << 16 | at->colour[x];
         for (unsigned i = 0; i < count; i++) {
             samples[i] = old;
         }
         at->mixed[x / 32U] |= 1U << (x % 32U);
         at->depth[x] = 0;
+        at->colour[x] = 0;
     }
     const uint32_t colour = colour_at(s, at, v, x, k, kind);
     for (unsigned i = 0; i < count; i++) {
@@ -280,8 +283,21 @@ static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, co
             continue;
         }
         const el_values v = el_values_at(slopes, (int32_t)x, kind);
+        if ((kind & EL_FILL_DEPTH) == 0) {
+            at->colour[x] = 0; /* which was drawn over; el_spread came before */
+        }
         draw_samples(s, at, &v, x, (1U << count) - 1U, count, kind);
         el_unmix(at, x, count);
+    }
+}
+
+/* Before a row is drawn over without asking for its depth. */
+static void spread_all(const el_sampled_place *at, uint32_t x, uint32_t x_end, uint32_t count)
+{
+    for (; x < x_end; x++) {
+        if (el_is_mixed(at, x)) {
+            el_spread(at, x, count);
+        }
     }
 }
 
@@ -289,6 +305,10 @@ static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, co
 static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
                                       unsigned kind)
 {
+    const bool any_mixed = el_any_is_mixed(at, x, x_end);
+    if (any_mixed && (kind & EL_FILL_DEPTH) == 0) {
+        spread_all(at, x, x_end, s->target->count);
+    }
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         const el_cursor cursor = {
             .row = (kind & EL_FILL_DEPTH) != 0 ? at->depth : at->colour,
@@ -309,7 +329,7 @@ static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, co
             depth++;
         } while (++colour != end);
     }
-    if (el_any_is_mixed(at, x, x_end)) {
+    if (any_mixed) {
         draw_mixed(s, at, slopes, x, x_end, kind);
     }
 }

@@ -1,4 +1,8 @@
-/* A pixel's samples as words, and its place in the band. Private to sampled.c and small_sampled.c. */
+/* A pixel's samples as words, and its place in the band. Private to sampled.c, small_sampled.c and samples.c.
+ *
+ * In most mixed pixels two triangles meet, or one and what is behind it: two words are enough for these, and a mask that
+ * says which samples have the first one. It lies in the pixel's place in the colour band; 0 there says that each sample
+ * has a word of its own. */
 #ifndef EL_RASTER_SAMPLED_PIXEL_H
 #define EL_RASTER_SAMPLED_PIXEL_H
 
@@ -27,6 +31,22 @@ static inline bool el_is_mixed(const el_sampled_place *at, uint32_t x)
     return (at->mixed[x / 32U] >> (x % 32U) & 1U) != 0;
 }
 
+/* Gives each sample of a mixed pixel a word of its own. */
+static inline void el_spread(const el_sampled_place *at, uint32_t x, uint32_t count)
+{
+    uint32_t *const samples = at->samples + x * count;
+    const uint32_t mask = at->colour[x];
+    const uint32_t inside = samples[0];
+    const uint32_t outside = samples[1];
+    if (mask == 0) {
+        return;
+    }
+    at->colour[x] = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        samples[k] = (mask >> k & 1U) != 0 ? inside : outside;
+    }
+}
+
 /* Whether any of pixels [x, x_end) is, one at least. */
 static inline bool el_any_is_mixed(const el_sampled_place *at, uint32_t x, uint32_t x_end)
 {
@@ -39,7 +59,7 @@ static inline bool el_any_is_mixed(const el_sampled_place *at, uint32_t x, uint3
     return word < last || (any & 0xFFFFFFFFU >> (31U - (x_end - 1U) % 32U)) != 0;
 }
 
-/* A mixed pixel is no longer, where all of its samples are the same. */
+/* A pixel whose samples have words of their own is mixed no longer, where all are the same. */
 static inline void el_unmix(const el_sampled_place *at, uint32_t x, uint32_t count)
 {
     const uint32_t *const samples = at->samples + x * count;

@@ -21,15 +21,29 @@ const el_sample_point *el_sample_points(unsigned count)
 /* RGB565 with a gap above each channel that takes the sum of eight. */
 enum { SPREAD = 0x07E0F81F };
 
+static const uint8_t bits_of[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+
+static EL_SPECIALISED uint32_t spread(uint32_t sample)
+{
+    return (sample << 16 | (sample & 0xFFFFU)) & SPREAD;
+}
+
 static EL_SPECIALISED void resolve(uint16_t *colour, uint16_t *depth, const uint32_t *samples, uint32_t count)
 {
     uint32_t nearest = samples[0];
-    uint32_t sum = 0;
-#pragma GCC unroll 8
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t sample = samples[k];
-        sum += (sample << 16 | (sample & 0xFFFFU)) & SPREAD;
-        nearest = sample < nearest ? sample : nearest;
+    uint32_t sum;
+    const uint32_t mask = *colour;
+    if (mask != 0) {
+        const uint32_t outside = samples[1];
+        const uint32_t inside = bits_of[mask & 15U] + (count == 8 ? bits_of[mask >> 4] : 0U);
+        sum = spread(nearest) * inside + spread(outside) * (count - inside);
+        nearest = el_min_u32(nearest, outside);
+    } else {
+        sum = spread(nearest);
+        for (uint32_t k = 1; k < count; k++) {
+            sum += spread(samples[k]);
+            nearest = el_min_u32(nearest, samples[k]);
+        }
     }
     /* Sums of eight are below 2^8, 2^8 and 2^9 from bits 0, 11 and 21 on. */
     const uint32_t half = count / 2U;

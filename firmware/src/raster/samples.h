@@ -38,7 +38,8 @@ static inline uint8_t el_samples_reach(unsigned count)
 typedef struct el_sampled_target {
     el_target target;
     uint32_t *mixed;   /* EL_MIXED_WORDS(width) per row */
-    uint32_t *samples; /* of each pixel `count`, valid where it is mixed: depth in the upper half, colour in the lower */
+    uint32_t *samples; /* of each pixel `count`, used where it is mixed (sampled_pixel.h); depth in the upper half, colour in
+                          the lower */
     unsigned count;    /* 4 or 8 */
 } el_sampled_target;
 

@@ -133,6 +133,28 @@ static EL_SPECIALISED uint32_t colour_at(const small_sampled *s, uint32_t x, con
 /* The lowest bit of a mask of four. */
 static const uint8_t lowest[16] = {0, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0};
 
+/* Draws the samples of `mask` of a mixed pixel. */
+static EL_SPECIALISED void draw_again(const el_sampled_place *at, uint32_t x, uint32_t mask, uint32_t drawn,
+                                      uint32_t count)
+{
+    uint32_t *const samples = at->samples + x * count;
+    const uint32_t nearer = drawn | 0xFFFFU;
+    const uint32_t taken = at->colour[x];
+    if (taken != 0 && (taken ^ mask) == (1U << count) - 1U) {
+        /* All of those that another triangle left. */
+        if (samples[1] > nearer) {
+            samples[1] = drawn;
+        }
+        return;
+    }
+    el_spread(at, x, count);
+    for (uint32_t k = 0; k < count; k++) {
+        if ((mask >> k & 1U) != 0 && samples[k] > nearer) {
+            samples[k] = drawn;
+        }
+    }
+}
+
 /* Draws the samples of `mask`, not 0 and not all, of pixel x. */
 static EL_SPECIALISED void draw_samples(const small_sampled *s, uint32_t x, uint32_t mask, uint32_t count,
                                         unsigned kind)
@@ -147,23 +169,15 @@ static EL_SPECIALISED void draw_samples(const small_sampled *s, uint32_t x, uint
             return;
         }
         const uint32_t drawn = z << 16 | colour_at(s, x, s->rgb_at[first], kind);
-        const uint32_t nearer = drawn | 0xFFFFU;
-#pragma GCC unroll 8
-        for (uint32_t k = 0; k < count; k++) {
-            if ((mask >> k & 1U) != 0 && samples[k] > nearer) {
-                samples[k] = drawn;
-            }
-        }
+        draw_again(at, x, mask, drawn, count);
         return;
     }
     const uint32_t drawn = z << 16 | colour_at(s, x, s->rgb_at[first], kind);
-    const uint32_t old = old_depth << 16 | at->colour[x];
+    samples[0] = drawn;
+    samples[1] = old_depth << 16 | at->colour[x];
     at->depth[x] = 0;
+    at->colour[x] = (uint16_t)mask;
     at->mixed[x / 32U] |= 1U << (x % 32U);
-#pragma GCC unroll 8
-    for (uint32_t k = 0; k < count; k++) {
-        samples[k] = (mask >> k & 1U) != 0 ? drawn : old;
-    }
 }
 
 #define PIXELS(DO)                                                                                                     \
@@ -231,19 +245,15 @@ static EL_APART void draw_mixed(const small_sampled *s, uint32_t x, uint32_t x_e
             continue;
         }
         const uint32_t drawn = depth_at(s, x, 0) << 16 | colour_at(s, x, nowhere, s->kind);
-        uint32_t *const samples = s->at.samples + x * count;
-        for (uint32_t k = 0; k < count; k++) {
-            if (samples[k] > (drawn | 0xFFFFU)) {
-                samples[k] = drawn;
-            }
-        }
+        draw_again(&s->at, x, (1U << count) - 1U, drawn, count);
         el_unmix(&s->at, x, count);
     }
 }
 
-/* Pixels [x, x_end), one at least, covered as a whole. */
-static EL_SPECIALISED void draw_inner(const small_sampled *s, uint32_t x, uint32_t x_end, unsigned kind)
+/* Pixels [x, x_end), one at least, covered as a whole, but for mixed ones. Returns whether there may be some. */
+static EL_SPECIALISED bool draw_inner(const small_sampled *s, uint32_t x, uint32_t x_end, unsigned kind)
 {
+    bool any_at_0 = false;
     uint16_t *depth = s->at.depth + x;
     const uint16_t *const end = s->at.depth + x_end;
     const el_cursor cursor = {.to_colour = (uintptr_t)s->at.colour - (uintptr_t)s->at.depth};
@@ -253,29 +263,27 @@ static EL_SPECIALISED void draw_inner(const small_sampled *s, uint32_t x, uint32
     do {
         if (el_passes(&v, depth, kind)) {
             *el_colour_at(&cursor, depth) = (kind & EL_FILL_COLOURS) != 0 ? (uint16_t)el_coloured(&v) : flat;
+        } else if (*depth == 0) {
+            any_at_0 = true;
         }
         el_values_add(&v, &step, kind);
     } while (++depth != end);
+    return any_at_0;
 }
 
-static EL_APART void draw_inner_coloured(const small_sampled *s, uint32_t x, uint32_t x_end)
+static EL_APART bool draw_inner_coloured(const small_sampled *s, uint32_t x, uint32_t x_end)
 {
-    draw_inner(s, x, x_end, EL_FILL_COLOURS | EL_FILL_DEPTH);
+    return draw_inner(s, x, x_end, EL_FILL_COLOURS | EL_FILL_DEPTH);
 }
 
-static EL_APART void draw_inner_flat(const small_sampled *s, uint32_t x, uint32_t x_end)
+static EL_APART bool draw_inner_flat(const small_sampled *s, uint32_t x, uint32_t x_end)
 {
-    draw_inner(s, x, x_end, EL_FILL_DEPTH);
+    return draw_inner(s, x, x_end, EL_FILL_DEPTH);
 }
 
 static EL_SPECIALISED void draw_whole(const small_sampled *s, uint32_t x, uint32_t x_end, uint32_t count)
 {
-    if (s->kind == EL_FILL_DEPTH) {
-        draw_inner_flat(s, x, x_end);
-    } else {
-        draw_inner_coloured(s, x, x_end);
-    }
-    if (el_any_is_mixed(&s->at, x, x_end)) {
+    if (s->kind == EL_FILL_DEPTH ? draw_inner_flat(s, x, x_end) : draw_inner_coloured(s, x, x_end)) {
         draw_mixed(s, x, x_end, count);
     }
 }
