@@ -132,12 +132,11 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
     machine->picture_height = config->panel != NULL ? machine->display.height : config->height;
 
     const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
-    machine->arena_bytes =
-        config->arena_bytes != 0
-            ? config->arena_bytes
-            : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines, EL_MACHINE_VERTICES,
-                              EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
-                  added_bytes(config, band_lines);
+    machine->arena_bytes = config->arena_bytes != 0
+                               ? config->arena_bytes
+                               : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
+                                                 EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
+                                     added_bytes(config, band_lines);
     if (config->threads > 1) {
         machine->threads = el_threads_open(config->threads);
         if (machine->threads == NULL) {

@@ -28,17 +28,17 @@ typedef enum way { ONCE, AGAIN, PREPASS, SAMPLES_4, SAMPLES_8 } way;
 /* Returns 0, or 1 when the frame could not be drawn. */
 static int measure(const el_scene *scene, uint32_t arena_bytes, uint8_t uv_error_log2, uint32_t frame, way how)
 {
-    static const char *const suffixes[] = {[ONCE] = "",
-                                           [AGAIN] = "-again",
-                                           [PREPASS] = "-prepass",
-                                           [SAMPLES_4] = "-4x",  [SAMPLES_8] = "-8x"};
+    static const char *const suffixes[] = {
+        [ONCE] = "", [AGAIN] = "-again", [PREPASS] = "-prepass", [SAMPLES_4] = "-4x", [SAMPLES_8] = "-8x"};
     static el_renderer renderer;
     const bench_setting setting = {
         .band_lines = BAND_LINES,
         .uv_error_log2 = uv_error_log2,
         .depth_prepass = how == PREPASS,
         .again = how == AGAIN,
-        .samples = how == SAMPLES_4 ? 4 : how == SAMPLES_8 ? 8 : 1,
+        .samples = how == SAMPLES_4   ? 4
+                   : how == SAMPLES_8 ? 8
+                                      : 1,
         .arena = arena,
         .arena_bytes = arena_bytes,
     };

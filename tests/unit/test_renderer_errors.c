@@ -101,8 +101,8 @@ static void test_init_refuses_numbers_of_samples(void)
     }
     for (uint8_t i = 4; i <= 8 && EL_WITH_SAMPLES; i += 4) {
         config.samples = i;
-        config.memory_bytes = EL_MIN_MEMORY_BYTES(WIDTH, HEIGHT, (unsigned)LINES) +
-                              EL_SAMPLES_BYTES((unsigned)WIDTH, (unsigned)LINES, i);
+        config.memory_bytes =
+            EL_MIN_MEMORY_BYTES(WIDTH, HEIGHT, (unsigned)LINES) + EL_SAMPLES_BYTES((unsigned)WIDTH, (unsigned)LINES, i);
         expect_init(EL_OK);
         config.memory_bytes -= 8;
         expect_init(EL_ERROR_MEMORY);

@@ -154,8 +154,8 @@ static void check_pixel(const seeded *s, const el_sampled_target *target, const 
             const int64_t least = ((value + 127) >> 8) >> (8U - bits[channel]);
             const int64_t most = ((value + 129) >> 8) >> (8U - bits[channel]);
             if (level < least || level > most) {
-                fail_at(s, "sample %u of %u, pixel %d, %d: channel %u is %d, not %d", k, count, (int)x, (int)y,
-                        channel, (int)level, (int)least);
+                fail_at(s, "sample %u of %u, pixel %d, %d: channel %u is %d, not %d", k, count, (int)x, (int)y, channel,
+                        (int)level, (int)least);
             }
         }
     }

@@ -151,8 +151,7 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
 }
 
 #if EL_WITH_SAMPLES
-static el_sampled_target sampled_target(const el_painter *painter, const el_renderer *renderer,
-                                        const el_target *target)
+static el_sampled_target sampled_target(const el_painter *painter, const el_renderer *renderer, const el_target *target)
 {
     const uint32_t words = EL_MIXED_WORDS(renderer->config.width) * (uint32_t)renderer->config.band_lines;
     return (el_sampled_target){
@@ -569,9 +568,8 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
 #if EL_WITH_PREPASS
-    painter->first_depth =
-        renderer->config.depth_prepass && !painter->band_is_open && renderer->config.view == EL_DEBUG_PICTURE &&
-        el_renderer_samples(renderer) == 1;
+    painter->first_depth = renderer->config.depth_prepass && !painter->band_is_open &&
+                           renderer->config.view == EL_DEBUG_PICTURE && el_renderer_samples(renderer) == 1;
 #endif
     const el_target target = open_band(painter, renderer, band);
     painter->goes_on = goes_on;

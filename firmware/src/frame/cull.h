@@ -35,7 +35,8 @@ typedef struct el_culling {
     int32_t height;
     int32_t row_begin; /* rows of the pass, on the screen */
     int32_t row_end;
-    int32_t reach; /* how far samples are from their pixel's centre on either axis, in 1/EL_SUBPIXELS px; 0: it has one */
+    int32_t
+        reach; /* how far samples are from their pixel's centre on either axis, in 1/EL_SUBPIXELS px; 0: it has one */
 } el_culling;
 
 /* Rows of a triangle that is seen: [first, end), of which `begin` is the first in the pass. */
@@ -172,9 +173,8 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
         return EL_VERDICT_EMPTY;
     }
     /* An area is its box' at most: where it is that of a column as wide as a pixel, a column of centres lies inside. */
-    if (area > -height * EL_SUBPIXELS &&
-        el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0) - (int32_t)reach) ==
-            el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0) + (int32_t)reach)) {
+    if (area > -height * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0) - (int32_t)reach) ==
+                                             el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0) + (int32_t)reach)) {
         return EL_VERDICT_EMPTY;
     }
     return el_cull_begun(culling, rows);

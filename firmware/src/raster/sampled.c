@@ -199,8 +199,8 @@ static EL_APART uint32_t draw_colour(sampled *s, const el_sampled_place *at, uin
 }
 
 /* The colour at sample k of a pixel, whose centre has values v; the centre's is k = count. */
-static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x, unsigned k,
-                                         unsigned kind)
+static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x,
+                                         unsigned k, unsigned kind)
 {
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         return draw_colour(s, at, x, k);
@@ -217,8 +217,8 @@ static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at,
 }
 
 /* Draws the samples of `mask`, not 0, of a pixel, in the depth and colour at sample k. */
-static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x, uint32_t mask,
-                                        unsigned k, unsigned kind)
+static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x,
+                                        uint32_t mask, unsigned k, unsigned kind)
 {
     const unsigned count = s->target->count;
     uint32_t *const samples = at->samples + x * count;
@@ -256,8 +256,8 @@ static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, 
 }
 
 /* Pixels [x, x_end) of a row, of which some samples are covered. */
-static EL_SPECIALISED void draw_ends(sampled *s, const el_sampled_place *at, const sampled_row *row, const el_slopes *slopes,
-                                     int32_t x, int32_t x_end, unsigned kind)
+static EL_SPECIALISED void draw_ends(sampled *s, const el_sampled_place *at, const sampled_row *row,
+                                     const el_slopes *slopes, int32_t x, int32_t x_end, unsigned kind)
 {
     el_values v = el_values_at(slopes, x, kind);
     for (; x < x_end; x++) {
@@ -274,8 +274,8 @@ static EL_SPECIALISED void draw_ends(sampled *s, const el_sampled_place *at, con
 }
 
 /* Those of pixels [x, x_end) that are mixed, and covered as a whole. */
-static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
-                                      unsigned kind)
+static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x,
+                                      uint32_t x_end, unsigned kind)
 {
     const unsigned count = s->target->count;
     for (; x < x_end; x++) {
@@ -302,8 +302,8 @@ static void spread_all(const el_sampled_place *at, uint32_t x, uint32_t x_end, u
 }
 
 /* Pixels [x, x_end) of a row, one at least, covered as a whole. */
-static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x, uint32_t x_end,
-                                      unsigned kind)
+static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x,
+                                      uint32_t x_end, unsigned kind)
 {
     const bool any_mixed = el_any_is_mixed(at, x, x_end);
     if (any_mixed && (kind & EL_FILL_DEPTH) == 0) {
@@ -420,8 +420,8 @@ static bool is_small(const el_corner *const sorted[3], int32_t reach, const el_s
 }
 #endif
 
-el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface,
-                                const el_sampled_target *target, el_stats *stats, el_small_sampled *place)
+el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
+                                el_stats *stats, el_small_sampled *place)
 {
     const el_corner *sorted[3];
     el_triangle_sort(corners, sorted);

@@ -10,7 +10,7 @@
         (x) * (EL_SUBPIXELS / 16), (y) * (EL_SUBPIXELS / 16)                                                           \
     }
 static const el_sample_point four[4] = {AT(-2, -6), AT(6, -2), AT(-6, 2), AT(2, 6)};
-static const el_sample_point eight[8] = {AT(1, -3),  AT(-1, 3), AT(5, 1), AT(-3, -5),
+static const el_sample_point eight[8] = {AT(1, -3), AT(-1, 3),  AT(5, 1), AT(-3, -5),
                                          AT(-5, 5), AT(-7, -1), AT(3, 7), AT(7, -7)};
 
 const el_sample_point *el_sample_points(unsigned count)

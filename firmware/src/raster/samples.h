@@ -37,10 +37,11 @@ static inline uint8_t el_samples_reach(unsigned count)
 /* A band whose pixels have several samples. */
 typedef struct el_sampled_target {
     el_target target;
-    uint32_t *mixed;   /* EL_MIXED_WORDS(width) per row */
-    uint32_t *samples; /* of each pixel `count`, used where it is mixed (sampled_pixel.h); depth in the upper half, colour in
+    uint32_t *mixed; /* EL_MIXED_WORDS(width) per row */
+    uint32_t
+        *samples; /* of each pixel `count`, used where it is mixed (sampled_pixel.h); depth in the upper half, colour in
                           the lower */
-    unsigned count;    /* 4 or 8 */
+    unsigned count; /* 4 or 8 */
 } el_sampled_target;
 
 #if EL_WITH_SAMPLES
@@ -60,8 +61,8 @@ typedef enum el_sampled_rest {
 } el_sampled_rest;
 
 /* Draws the rows of a triangle that lie in the target. `place`: memory for one under way. */
-el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface,
-                                const el_sampled_target *target, el_stats *stats, el_small_sampled *place);
+el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
+                                el_stats *stats, el_small_sampled *place);
 
 /* Makes one colour of each mixed pixel's, the mean of each of RGB565's channels, rounded to nearest and half a unit up, and
  * one depth, the nearest. No pixel is mixed then. */

@@ -4,8 +4,8 @@
 #define EL_RASTER_SMALL_SAMPLED_H
 
 #include "raster/fill.h"
-#include "raster/samples.h"
 #include "raster/sampled_pixel.h"
+#include "raster/samples.h"
 #include "raster/small_plane.h"
 
 #if EL_WITH_SMALL_SAMPLED
