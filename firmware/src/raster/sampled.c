@@ -29,7 +29,7 @@ typedef struct sampled {
     /* From the centre to each sample, and to the centre: what is linear on the screen. */
     uint64_t z_at[EL_MAX_SAMPLES + 1];
     uint32_t rgb_at[EL_MAX_SAMPLES + 1][3];
-    el_plane_parts w, u, v;
+    uint64_t wuv_at[EL_MAX_SAMPLES + 1][3];
     el_row_brush brush;
     sample_edges edges[EL_MAX_SAMPLES];
 } sampled;
@@ -60,9 +60,16 @@ static void make_perspective_parts(sampled *s, const el_corner *const corners[3]
         u[i] = el_shift_i64((corners[i]->u_q16 - p->u_base_q16) * w[i], p->u_shift - EL_PLANE_FRACTION_BITS);
         v[i] = el_shift_i64((corners[i]->v_q16 - p->v_base_q16) * w[i], p->v_shift - EL_PLANE_FRACTION_BITS);
     }
-    el_plane_parts_make(&s->w, frame, w, 0);
-    el_plane_parts_make(&s->u, frame, u, EL_PLANE_FRACTION_BITS);
-    el_plane_parts_make(&s->v, frame, v, EL_PLANE_FRACTION_BITS);
+    el_plane_parts parts[3];
+    el_plane_parts_make(&parts[0], frame, w, 0);
+    el_plane_parts_make(&parts[1], frame, u, EL_PLANE_FRACTION_BITS);
+    el_plane_parts_make(&parts[2], frame, v, EL_PLANE_FRACTION_BITS);
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned k = 0; k < s->target->count; k++) {
+            s->wuv_at[k][i] = parts_times(&parts[i], &s->points[k]);
+        }
+        s->wuv_at[s->target->count][i] = 0;
+    }
 }
 
 static void make_parts(sampled *s, const el_corner *const corners[3])
@@ -174,25 +181,32 @@ static uint32_t covered(const sampled_row *row, int32_t x, unsigned count)
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------- */
 
+/* From the pixel's centre to sample k, and back with `sign` -1. */
+static void shift_values(sampled *s, unsigned k, int sign)
+{
+    el_triangle *const triangle = &s->triangle;
+    const uint64_t times = (uint64_t)(int64_t)sign;
+    for (unsigned i = 0; i < 3 && (triangle->kind & EL_FILL_COLOURS) != 0; i++) {
+        triangle->rgb[i].value += s->rgb_at[k][i] * (uint32_t)sign;
+    }
+    if ((triangle->kind & EL_FILL_TEXTURE) != 0) {
+        triangle->perspective.w.value += s->wuv_at[k][0] * times;
+        triangle->perspective.u.value += s->wuv_at[k][1] * times;
+        triangle->perspective.v.value += s->wuv_at[k][2] * times;
+    }
+}
+
 /* The colour of a shading that few triangles have, by drawing the pixel: of row and column, but where the sample is. */
 static EL_APART uint32_t draw_colour(sampled *s, const el_sampled_place *at, uint32_t x, unsigned k)
 {
-    el_triangle shifted = s->triangle;
-    shifted.kind = (uint8_t)(s->triangle.kind & ~(unsigned)EL_FILL_DEPTH);
-    if (k < s->target->count) {
-        const el_sample_point *const point = &s->points[k];
-        for (unsigned i = 0; i < 3 && (shifted.kind & EL_FILL_COLOURS) != 0; i++) {
-            shifted.rgb[i].value += s->rgb_at[k][i];
-        }
-        if ((shifted.kind & EL_FILL_TEXTURE) != 0) {
-            shifted.perspective.w.value += parts_times(&s->w, point);
-            shifted.perspective.u.value += parts_times(&s->u, point);
-            shifted.perspective.v.value += parts_times(&s->v, point);
-        }
-    }
+    const uint8_t kind = s->triangle.kind;
     const el_cursor cursor = {.row = at->colour};
     const uint16_t before = at->colour[x];
-    el_fill_row(&shifted, &s->brush, &cursor, x, x + 1U);
+    s->triangle.kind = (uint8_t)(kind & ~(unsigned)EL_FILL_DEPTH);
+    shift_values(s, k, 1);
+    el_fill_row(&s->triangle, &s->brush, &cursor, x, x + 1U);
+    shift_values(s, k, -1);
+    s->triangle.kind = kind;
     const uint32_t colour = at->colour[x];
     at->colour[x] = before;
     return colour;
@@ -372,6 +386,11 @@ static EL_APART void draw_flat(sampled *s, int32_t y, int32_t y_end, el_stats *s
     draw_rows(s, y, y_end, stats, EL_FILL_DEPTH);
 }
 
+static EL_APART void draw_textured(sampled *s, int32_t y, int32_t y_end, el_stats *stats)
+{
+    draw_rows(s, y, y_end, stats, EL_FILL_TEXTURE | EL_FILL_DEPTH);
+}
+
 static EL_APART void draw_other(sampled *s, int32_t y, int32_t y_end, el_stats *stats)
 {
     draw_rows(s, y, y_end, stats, s->triangle.kind);
@@ -397,6 +416,8 @@ static EL_APART void draw_any(const el_corner *const sorted[3], int64_t area, co
         draw_coloured(&s, y, y_end, stats);
     } else if (s.triangle.kind == EL_FILL_DEPTH) {
         draw_flat(&s, y, y_end, stats);
+    } else if (s.triangle.kind == (EL_FILL_TEXTURE | EL_FILL_DEPTH)) {
+        draw_textured(&s, y, y_end, stats);
     } else {
         draw_other(&s, y, y_end, stats);
     }

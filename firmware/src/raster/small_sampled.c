@@ -261,9 +261,14 @@ static EL_SPECIALISED bool draw_inner(const small_sampled *s, uint32_t x, uint32
     const uint16_t flat = s->flat;
     el_values v = el_values_at(&s->slopes, (int32_t)x, kind);
     do {
-        if (el_passes(&v, depth, kind)) {
+        const uint32_t old = *depth;
+        const uint32_t z = (uint32_t)(v.z >> 32);
+        if (z < old) {
+            EL_KEEP_BRANCH();
+            *depth = (uint16_t)z;
             *el_colour_at(&cursor, depth) = (kind & EL_FILL_COLOURS) != 0 ? (uint16_t)el_coloured(&v) : flat;
-        } else if (*depth == 0) {
+        } else if (old == 0) {
+            EL_KEEP_BRANCH();
             any_at_0 = true;
         }
         el_values_add(&v, &step, kind);
