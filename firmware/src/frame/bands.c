@@ -507,7 +507,8 @@ static uint16_t draw_sampled(el_painter *painter, const el_renderer *renderer, u
                              const el_sampled_target *target, sampled_place *place)
 {
     const el_list *const list = &renderer->list;
-    if (EL_WITH_SMALL_SAMPLED && name >= painter->carrying.first_state) {
+#if EL_WITH_SMALL_SAMPLED
+    if (name >= painter->carrying.first_state) {
         sampled_state *const state = el_list_at(list, name);
         if (el_small_sampled_go_on(&state->triangle, target, painter->stats) && painter->goes_on) {
             return name;
@@ -515,13 +516,17 @@ static uint16_t draw_sampled(el_painter *painter, const el_renderer *renderer, u
         give_state(&painter->carrying, list, EL_STATE_SAMPLED, name);
         return 0;
     }
+    el_small_sampled *const triangle = &place->state->triangle;
+#else
+    el_small_sampled *const triangle = NULL;
+#endif
     el_corner corners[3];
     el_surface surface;
     el_count(&painter->stats->vertices, el_list_gather(list, el_list_record(list, name), corners, &surface));
     el_count(&painter->stats->setups, 1);
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, el_list_record(list, name), &surface);
-    const el_sampled_rest rest = el_sampled_draw(corners, &surface, target, painter->stats, &place->state->triangle);
+    const el_sampled_rest rest = el_sampled_draw(corners, &surface, target, painter->stats, triangle);
     if (rest == EL_SAMPLED_DONE || !painter->goes_on) {
         return 0;
     }

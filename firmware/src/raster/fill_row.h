@@ -19,7 +19,7 @@ static inline void el_row_brush_begin(el_row_brush *brush, const el_triangle *tr
     }
 }
 
-#if !EL_SMALL_CODE && EL_WITH_SAMPLES
+#if EL_WITH_SAMPLES
 /* Draws pixels [x, x_end) of the triangle's next row, one at least, in pieces along which texture coordinates are linear. */
 void el_fill_row(const el_triangle *triangle, el_row_brush *brush, const el_cursor *cursor, uint32_t x, uint32_t x_end);
 #endif

@@ -28,7 +28,7 @@ static EL_APART_IF_SMALL uint16_t shaded(uint32_t texel, const el_values *v, uin
     return el_modulate(texel, v, threshold_q16, kind);
 }
 
-#if EL_SMALL_CODE
+#if !EL_WITH_SAMPLES
 static EL_APART_IF_SMALL
 #endif
     void

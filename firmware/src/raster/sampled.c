@@ -174,6 +174,7 @@ static uint32_t covered(const sampled_row *row, int32_t x, unsigned count)
 {
     uint32_t mask = 0;
     for (unsigned k = 0; k < count; k++) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): next_row has set as many. */
         mask |= (uint32_t)(x >= row->left[k] && x < row->right[k]) << k;
     }
     return mask;

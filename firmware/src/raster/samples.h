@@ -60,7 +60,7 @@ typedef enum el_sampled_rest {
     EL_SAMPLED_CARRIED  /* the same, but what is needed for them is in `place` */
 } el_sampled_rest;
 
-/* Draws the rows of a triangle that lie in the target. `place`: memory for one under way. */
+/* Draws the rows of a triangle that lie in the target. `place`: memory for one under way; NULL where none is carried on. */
 el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *surface, const el_sampled_target *target,
                                 el_stats *stats, el_small_sampled *place);
 
