@@ -102,7 +102,7 @@ def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flag: 
     assert _draw(tmp_path, flag) == nothing_hidden
 
 
-@pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE"])
+@pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE", "SAMPLES"])
 def test_small_code_takes_what_it_begins_without(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, option: str
 ) -> None:
@@ -110,7 +110,7 @@ def test_small_code_takes_what_it_begins_without(
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 
-@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE"])
+@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES"])
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
     assert _draw(tmp_path, f"-DEL_WITH_{option}=0") == everything
 

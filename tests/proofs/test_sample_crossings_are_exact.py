@@ -1,10 +1,11 @@
 """Where a short edge passes the samples of a row (firmware/src/raster/small_sampled.c), for every short edge.
 
-From a corner, t units above a sample, the edge has gone t dx / dy units to the side. What is computed of that in 2^-20
-of a pixel is step q + part (r + y): step = floor(dx R / 2^11) with R = floor((2^31 - 1) / dy), part = floor(step / 16), y
-from the row's centre to the sample, and t - y = 16 q + r. The crossing, to which a pixel less 48 units is added, has the
-right whole part as long as the error is below 48 units, and not below 48 less a step of the grid that crossings lie on,
-2^20 / 16 dy: edge.h has the reason. Errors are linear in q, so the first and the last two rows of each edge are enough.
+From a corner, t units above a sample, the edge has gone t dx / dy units to the side. What is computed of that in
+2^-20 of a pixel is step q + part (r + y): step = floor(dx R / 2^11) with R = floor((2^31 - 1) / dy), part =
+floor(step / 16), y from the row's centre to the sample, and t - y = 16 q + r. The crossing, to which a pixel less 48
+units is added, has the right whole part as long as the error is below 48 units, and not below 48 less a step of the
+grid that crossings lie on, 2^20 / 16 dy: edge.h has the reason. Errors are linear in q, so the first and the last two
+rows of each edge are enough.
 """
 
 from __future__ import annotations
