@@ -362,7 +362,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
                              .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                              .width = renderer->config.width,
                              .height = renderer->config.height,
-                             .reach = renderer->list.reach};
+                             .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0};
     el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {

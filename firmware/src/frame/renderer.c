@@ -120,7 +120,9 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     }
     memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
+#if EL_WITH_SAMPLES
     renderer->list.reach = el_samples_reach(el_renderer_samples(renderer));
+#endif
     el_quiet_begin(renderer);
     begin_pass(renderer, 0);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {

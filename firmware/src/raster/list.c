@@ -14,7 +14,9 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
     list->bin_count = bin_count;
     list->is_shared = false;
     list->has_gaps = false;
+#if EL_WITH_SAMPLES
     list->reach = 0;
+#endif
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
