@@ -27,6 +27,20 @@ static bool take_uv_error(el_common_options *options, const char *text)
     return false;
 }
 
+static bool take_samples(el_common_options *options, const char *text)
+{
+    long value;
+    if (!el_option_integer("--samples", text, 1, EL_MAX_SAMPLES, &value)) {
+        return false;
+    }
+    if (value != 1 && value != 4 && value != EL_MAX_SAMPLES) {
+        el_report("--samples takes 1, 4 or 8, not '%s'", text);
+        return false;
+    }
+    options->machine.samples = (uint8_t)value;
+    return true;
+}
+
 bool el_common_options_take(el_common_options *options, int which, const char *text)
 {
     long value;
@@ -52,6 +66,8 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
         }
         options->machine.threads = (unsigned)value;
         return true;
+    case EL_OPTION_SAMPLES:
+        return take_samples(options, text);
     case EL_OPTION_FRAMES:
         return el_option_integer("--frames", text, 1, INT_MAX, &options->frames);
     case EL_OPTION_PANEL:

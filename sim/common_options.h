@@ -19,6 +19,7 @@ enum {
     EL_OPTION_PANEL,
     EL_OPTION_ROTATION,
     EL_OPTION_THREADS,
+    EL_OPTION_SAMPLES,
     EL_OPTION_OWN
 };
 
@@ -29,6 +30,7 @@ enum {
         {"frames", required_argument, NULL, EL_OPTION_FRAMES}, {"panel", required_argument, NULL, EL_OPTION_PANEL},    \
         {"rotation", required_argument, NULL, EL_OPTION_ROTATION},                                                     \
         {"threads", required_argument, NULL, EL_OPTION_THREADS},                                                       \
+        {"samples", required_argument, NULL, EL_OPTION_SAMPLES},                                                       \
     {                                                                                                                  \
         "uv-error", required_argument, NULL, EL_OPTION_UV_ERROR                                                        \
     }

@@ -133,7 +133,7 @@ def test_without_members_the_rest_is_drawn(everything: Drawn, tmp_path: Path, op
     assert drawn == {name: way for name, way in everything.items() if name not in ways}
 
 
-@pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE"])
+@pytest.mark.parametrize("option", ["THIN", "CLUSTERS", "HIDDEN", "PREPASS", "WORKERS", "REUSE", "SAMPLES"])
 def test_small_code_takes_what_it_begins_without(
     everything: Drawn, nothing_hidden: Drawn, tmp_path: Path, option: str
 ) -> None:
@@ -141,7 +141,7 @@ def test_small_code_takes_what_it_begins_without(
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 
-@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE"])
+@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES"])
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
     assert _draw(tmp_path, f"-DEL_WITH_{option}=0") == everything
 

@@ -5,7 +5,8 @@
  *     SCENE ARENA UV FRAME crc CRC passes N peak BYTES collecting BYTES colour BYTES depth BYTES bins BYTES list BYTES
  *         ns NANOSECONDS
  *
- * in one line. SCENE-again is the second of two equal frames, SCENE-prepass is drawn depth first. `peak` is the arena's
+ * in one line. SCENE-again is the second of two equal frames, SCENE-prepass is drawn depth first, SCENE-4x and SCENE-8x with so many samples per
+ * pixel. `peak` is the arena's
  * largest use, `collecting` its largest one before the bands of the longest list are drawn; two bands of colour, one of
  * depth, the bins and the display list have the bytes that are named, at either time. Beside them lie vertices while
  * triangles are collected, and states of triangles while they are drawn. */
@@ -22,18 +23,22 @@ enum {
 
 static _Alignas(8) uint8_t arena[LARGE_ARENA];
 
-typedef enum way { ONCE, AGAIN, PREPASS } way;
+typedef enum way { ONCE, AGAIN, PREPASS, SAMPLES_4, SAMPLES_8 } way;
 
 /* Returns 0, or 1 when the frame could not be drawn. */
 static int measure(const el_scene *scene, uint32_t arena_bytes, uint8_t uv_error_log2, uint32_t frame, way how)
 {
-    static const char *const suffixes[] = {[ONCE] = "", [AGAIN] = "-again", [PREPASS] = "-prepass"};
+    static const char *const suffixes[] = {
+        [ONCE] = "", [AGAIN] = "-again", [PREPASS] = "-prepass", [SAMPLES_4] = "-4x", [SAMPLES_8] = "-8x"};
     static el_renderer renderer;
     const bench_setting setting = {
         .band_lines = BAND_LINES,
         .uv_error_log2 = uv_error_log2,
         .depth_prepass = how == PREPASS,
         .again = how == AGAIN,
+        .samples = how == SAMPLES_4   ? 4
+                   : how == SAMPLES_8 ? 8
+                                      : 1,
         .arena = arena,
         .arena_bytes = arena_bytes,
     };
@@ -82,6 +87,7 @@ int bench_main(void)
 {
     static const char *const still[] = {"S1", "S2", "S2-no-depth", "S3", "S4"};
     static const char *const moving[] = {"teapot", "room", "solid", "field"};
+    static const char *const sampled[] = {"S1", "S3", "teapot", "room"};
     static const uint32_t frames[] = {0, 5, 10};
     int failed = 0;
 
@@ -101,6 +107,10 @@ int bench_main(void)
         }
     }
     failed |= measure(el_scene_find("teapot"), LARGE_ARENA, DEFAULT_UV, 0, AGAIN);
+    for (size_t i = 0; i < sizeof sampled / sizeof sampled[0]; i++) {
+        failed |= measure(el_scene_find(sampled[i]), LARGE_ARENA, DEFAULT_UV, 0, SAMPLES_4);
+    }
+    failed |= measure(el_scene_find("S1"), LARGE_ARENA, DEFAULT_UV, 0, SAMPLES_8);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, ONCE);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, PREPASS);
     failed |= measure_own(model_scenes, model_scene_count, ONCE);

@@ -25,6 +25,7 @@ typedef struct scene {
     uint16_t width, height;
     uint16_t background;
     uint8_t uv_error_log2;
+    uint8_t samples; /* per pixel */
     el_camera camera;
     unsigned count;
     item items[MAX_DRAWS];
@@ -150,7 +151,9 @@ static void take_scene(input *in, scene *s)
     s->width = (uint16_t)(1 + take_u8(in) % PICTURE_SIDE);
     s->height = (uint16_t)(1 + take_u8(in) % PICTURE_SIDE);
     s->background = take_u16(in);
-    s->uv_error_log2 = take_u8(in) % 7;
+    const uint8_t choices = take_u8(in);
+    s->uv_error_log2 = choices % 7;
+    s->samples = (uint8_t)(EL_WITH_SAMPLES ? choices / 7 % 3 * 4 : 0);
     for (unsigned i = 0; i < TEXELS; i++) {
         s->texels[i] = (uint16_t)(i * 2654435761U >> 16);
     }
@@ -182,6 +185,7 @@ static answers draw(const scene *s, way how, unsigned misalignment, picture *p)
     p->width = s->width;
     p->height = s->height;
     const el_sink sink = picture_sink(p);
+    how.memory_bytes += EL_SAMPLES_BYTES((unsigned)s->width, (unsigned)how.band_lines, s->samples);
     uint8_t *const memory = malloc(how.memory_bytes + misalignment);
     FUZZ_EXPECT(memory != NULL);
     const el_config config = {
@@ -190,6 +194,7 @@ static answers draw(const scene *s, way how, unsigned misalignment, picture *p)
         .band_lines = how.band_lines,
         .background = s->background,
         .uv_error_log2 = s->uv_error_log2,
+        .samples = s->samples,
         .memory = memory + misalignment,
         .memory_bytes = how.memory_bytes,
         .sinks = {NULL, &sink},

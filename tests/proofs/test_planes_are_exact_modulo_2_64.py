@@ -600,7 +600,7 @@ def small_channel_check(machine: Machine, arguments: list[Any], _: Any) -> None:
     channel = arguments[0].cell.content
     i, j = machine.path.atom("i", 0, SCREEN - 1), machine.path.atom("j", 0, SCREEN - 1)
     # The lemma's unknowns, for the products with them.
-    ways = [machine.locals[f"el_small_channel_make.to_centre_{axis}"].poly for axis in "xy"]
+    ways = [machine.locals[f"el_small_channel_make_from.to_centre_{axis}"].poly for axis in "xy"]
     machine.path.prove(ways[0] - to_x, "the way to its centre", zero=True)
     machine.path.prove(ways[1] - to_y, "the way to its centre", zero=True)
     to_x, to_y = ways
@@ -622,6 +622,7 @@ def to_centre_lemma(machine: Machine, value: Number) -> Number:
 SMALL_MODULAR = [
     "el_small_plane_make",
     "el_small_channel_make",
+    "el_small_channel_make_from",
     "el_quotient_per_pixel",
     "el_quotients_times",
     "el_divide_small_q32",
@@ -638,7 +639,7 @@ SMALL_COLOUR = Subject(
     small_domain("el_channel", 255 * 256),
     small_channel_check,
     SMALL_MODULAR,
-    lemmas={f"el_small_channel_make.to_centre_{axis}": to_centre_lemma for axis in "xy"},
+    lemmas={f"el_small_channel_make_from.to_centre_{axis}": to_centre_lemma for axis in "xy"},
 )
 SHORT_WAYS = pytest.mark.parametrize("subject", [SMALL_DEPTH, SMALL_COLOUR], ids=["depth", "colour"])
 # In the digits of a core without a divider.

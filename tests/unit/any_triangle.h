@@ -17,12 +17,10 @@ static inline int64_t reference_side(const el_corner *a, const el_corner *b, int
     return (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
 }
 
-/* A centre inside is covered; one on an edge only where the triangle lies below a level edge (top) or on the right of
+/* A point inside is covered; one on an edge only where the triangle lies below a level edge (top) or on the right of
  * another (left). */
-static inline bool reference_covers(const el_corner corners[3], int32_t column, int32_t row)
+static inline bool reference_covers_point(const el_corner corners[3], int64_t x, int64_t y)
 {
-    const int64_t x = (int64_t)column * EL_SUBPIXELS + EL_SUBPIXELS / 2;
-    const int64_t y = (int64_t)row * EL_SUBPIXELS + EL_SUBPIXELS / 2;
     const int64_t area = reference_side(&corners[0], &corners[1], corners[2].x, corners[2].y);
     for (unsigned i = 0; i < 3 && area != 0; i++) {
         const el_corner *const a = &corners[area > 0 ? i : (i + 1) % 3]; /* clockwise, the inside on the right */
@@ -34,6 +32,13 @@ static inline bool reference_covers(const el_corner corners[3], int32_t column, 
         }
     }
     return area != 0;
+}
+
+/* The same for the pixel's centre. */
+static inline bool reference_covers(const el_corner corners[3], int32_t column, int32_t row)
+{
+    return reference_covers_point(corners, (int64_t)column * EL_SUBPIXELS + EL_SUBPIXELS / 2,
+                                  (int64_t)row * EL_SUBPIXELS + EL_SUBPIXELS / 2);
 }
 
 /* A corner within +-reach sub-pixels of `middle`, with every attribute. */

@@ -102,7 +102,7 @@ static void test_the_fast_way_answers_the_same(void)
         el_cull_rows rows = {0};
         el_cull_rows fast_rows = {0};
         const el_verdict verdict = el_cull(&culling, (const el_screen_vertex *const[]){&v[0], &v[1], &v[2]}, &rows);
-        const el_verdict fast = el_cull_in_view(&culling, &v[0], &v[1], &v[2], &fast_rows);
+        const el_verdict fast = el_cull_in_view(&culling, &v[0], &v[1], &v[2], (uint32_t)culling.reach, &fast_rows);
         if (fast != verdict) {
             fail_at(&s, "verdict %d, not %d", (int)fast, (int)verdict);
         }

@@ -93,6 +93,67 @@ static void test_the_least_memory_is_the_least(void)
     expect_init(EL_ERROR_MEMORY);
 }
 
+static void test_init_refuses_numbers_of_samples(void)
+{
+    for (uint8_t i = 0; i < 20; i++) {
+        config.samples = i;
+        expect_init(i <= 1 || (EL_WITH_SAMPLES && (i == 4 || i == 8)) ? EL_OK : EL_ERROR_SIZE);
+    }
+    for (uint8_t i = 4; i <= 8 && EL_WITH_SAMPLES; i += 4) {
+        config.samples = i;
+        config.memory_bytes =
+            EL_MIN_MEMORY_BYTES(WIDTH, HEIGHT, (unsigned)LINES) + EL_SAMPLES_BYTES((unsigned)WIDTH, (unsigned)LINES, i);
+        expect_init(EL_OK);
+        config.memory_bytes -= 8;
+        expect_init(EL_ERROR_MEMORY);
+        config.memory_bytes = sizeof memory;
+        config.depth_prepass = EL_WITH_PREPASS;
+        expect_init(EL_WITH_PREPASS ? EL_ERROR_SIZE : EL_OK);
+        config.depth_prepass = false;
+    }
+}
+
+/* Counting pixels is one sample's. */
+static void test_overdraw_is_not_drawn_with_several_samples(void)
+{
+    const el_pose pose = el_pose_identity();
+    el_material counting = red;
+    counting.shading = EL_SHADE_OVERDRAW;
+    config.samples = EL_WITH_SAMPLES ? 4 : 1;
+    expect_init(EL_OK);
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_frame_begin(&renderer, &camera));
+    TEST_ASSERT_EQUAL_INT(EL_WITH_SAMPLES || !EL_WITH_OVERDRAW ? EL_ERROR_MATERIAL : EL_OK,
+                          el_draw(&renderer, &quad, &pose, &counting));
+    TEST_ASSERT_EQUAL_INT(0, el_frame_next(&renderer));
+}
+
+/* A frame with fewer samples than there is memory for, and one with one, draw what they would without that memory. */
+static void test_samples_may_be_changed_between_frames(void)
+{
+    static const uint8_t numbers[] = {8, 1, 4, 8};
+    static uint16_t pictures[4][WIDTH * HEIGHT];
+    const el_pose pose = el_pose_identity();
+    for (unsigned round = 0; round < 2 && EL_WITH_SAMPLES; round++) {
+        config.samples = 8;
+        expect_init(EL_OK);
+        for (unsigned i = 0; i < 4; i++) {
+            if (round == 1) {
+                config.samples = numbers[i];
+                expect_init(EL_OK);
+            }
+            renderer.config.samples = numbers[i];
+            TEST_ASSERT_EQUAL_INT(EL_OK, el_frame_begin(&renderer, &camera));
+            TEST_ASSERT_EQUAL_INT(EL_OK, el_draw(&renderer, &quad, &pose, &red));
+            TEST_ASSERT_EQUAL_INT(0, el_frame_next(&renderer));
+            if (round == 0) {
+                memcpy(pictures[i], record.pixels, sizeof pictures[i]);
+            } else {
+                TEST_ASSERT_EQUAL_MEMORY(pictures[i], record.pixels, sizeof pictures[i]);
+            }
+        }
+    }
+}
+
 static void test_calls_in_the_wrong_order(void)
 {
     const el_pose pose = el_pose_identity();
@@ -397,6 +458,9 @@ int main(void)
     RUN_TEST(test_init_refuses_sizes);
     RUN_TEST(test_init_refuses_texture_errors_out_of_range);
     RUN_TEST(test_the_least_memory_is_the_least);
+    RUN_TEST(test_init_refuses_numbers_of_samples);
+    RUN_TEST(test_overdraw_is_not_drawn_with_several_samples);
+    RUN_TEST(test_samples_may_be_changed_between_frames);
     RUN_TEST(test_calls_in_the_wrong_order);
     RUN_TEST(test_a_bad_camera_begins_no_frame);
     RUN_TEST(test_draw_refuses);

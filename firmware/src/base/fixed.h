@@ -76,6 +76,11 @@ static inline int32_t el_min_i32(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+static inline uint32_t el_max_u32(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
 static inline uint32_t el_min_u32(uint32_t a, uint32_t b)
 {
     return a < b ? a : b;

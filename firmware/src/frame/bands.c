@@ -7,6 +7,7 @@
 #include "raster/gather.h"
 #include "raster/hidden.h"
 #include "raster/plain.h"
+#include "raster/small_sampled.h"
 #include "raster/small_triangle.h"
 #include "raster/tiny_triangle.h"
 
@@ -41,6 +42,18 @@ typedef struct tiny_state {
 _Static_assert(offsetof(tiny_state, is_tiny) == offsetof(carried_state, is_tiny), "one may be asked for the other");
 #endif
 
+#if EL_WITH_SAMPLES
+/* Where pixels have several samples: the same beginning. */
+typedef struct sampled_state {
+    uint16_t next;
+    uint16_t order;
+#if EL_WITH_SMALL_SAMPLED
+    el_small_sampled triangle;
+#endif
+} sampled_state;
+_Static_assert(offsetof(sampled_state, order) == offsetof(carried_state, order), "one may be asked for the other");
+#endif
+
 /* What a depth band is cleared to; before a pre-pass a unit less, which is added then (draw_depth_first). */
 enum { EMPTY = 0xFFFF, FARTHEST = EL_DEPTH_MAX };
 
@@ -56,20 +69,25 @@ static uint32_t state_bytes(el_state_kind kind)
     return offsetof(carried_state, triangle) + el_triangle_bytes((el_shading)kind);
 }
 
-static uint16_t take_state(el_carrying *c, const el_list *list, el_state_kind kind)
+static EL_SPECIALISED uint16_t take_bytes(el_carrying *c, const el_list *list, el_state_kind kind, uint32_t all_bytes)
 {
     const uint16_t reused = c->given_back[kind];
     if (reused != 0) {
         c->given_back[kind] = *(const uint16_t *)el_list_at(list, reused);
         return reused;
     }
-    const uint32_t bytes = EL_LIST_BYTES(state_bytes(kind));
+    const uint32_t bytes = EL_LIST_BYTES(all_bytes);
     if (bytes > c->end - c->used) {
         return 0;
     }
     const uint16_t name = (uint16_t)(c->used / EL_LIST_UNIT);
     c->used += bytes;
     return name;
+}
+
+static uint16_t take_state(el_carrying *c, const el_list *list, el_state_kind kind)
+{
+    return take_bytes(c, list, kind, state_bytes(kind));
 }
 
 static void give_state(el_carrying *c, const el_list *list, el_state_kind kind, uint16_t name)
@@ -132,8 +150,35 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
 }
 
+#if EL_WITH_SAMPLES
+static el_sampled_target sampled_target(const el_painter *painter, const el_renderer *renderer, const el_target *target)
+{
+    const uint32_t words = EL_MIXED_WORDS(renderer->config.width) * (uint32_t)renderer->config.band_lines;
+    return (el_sampled_target){
+        .target = *target,
+        .mixed = painter->samples,
+        .samples = painter->samples + (words + 1U) / 2U * 2U,
+        .count = renderer->config.samples,
+    };
+}
+#endif
+
 OF_WORKERS_TOO void el_painter_finish(el_painter *painter, const el_renderer *renderer)
 {
+#if EL_WITH_SAMPLES
+    if (el_renderer_samples(renderer) > 1) {
+        const el_band *const buffer = &painter->bands[painter->current];
+        const el_target target = {
+            .colour = buffer->pixels,
+            .depth = painter->depth[painter->current],
+            .width = buffer->width,
+            .y = buffer->y,
+            .y_end = buffer->y + buffer->lines,
+        };
+        const el_sampled_target sampled = sampled_target(painter, renderer, &target);
+        el_samples_resolve(&sampled);
+    }
+#endif
     el_debug_finish_band(renderer, painter);
     draw_layer(painter, renderer->config.over);
 }
@@ -481,6 +526,84 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
 }
 #endif
 
+#if EL_WITH_SAMPLES
+/* Where the next triangle is set up: in a state, which it keeps when it reaches on. */
+typedef struct sampled_place {
+    sampled_state *state;
+    uint16_t name;       /* 0: there is no memory for one */
+    sampled_state spare; /* the place then */
+} sampled_place;
+
+static void find_sampled_place(sampled_place *place, el_carrying *c, const el_list *list)
+{
+    place->name = EL_WITH_CARRY ? take_bytes(c, list, EL_STATE_SAMPLED, sizeof(sampled_state)) : 0;
+    place->state = place->name != 0 ? el_list_at(list, place->name) : &place->spare;
+}
+
+/* As draw_named, with several samples per pixel. */
+static uint16_t draw_sampled(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                             const el_sampled_target *target, sampled_place *place)
+{
+    const el_list *const list = &renderer->list;
+#if EL_WITH_SMALL_SAMPLED
+    if (name >= painter->carrying.first_state) {
+        sampled_state *const state = el_list_at(list, name);
+        if (el_small_sampled_go_on(&state->triangle, target, painter->stats) && painter->goes_on) {
+            return name;
+        }
+        give_state(&painter->carrying, list, EL_STATE_SAMPLED, name);
+        return 0;
+    }
+    el_small_sampled *const triangle = &place->state->triangle;
+#else
+    el_small_sampled *const triangle = NULL;
+#endif
+    el_corner corners[3];
+    el_surface surface;
+    el_count(&painter->stats->vertices, el_list_gather(list, el_list_record(list, name), corners, &surface));
+    el_count(&painter->stats->setups, 1);
+    surface.uv_error_log2 = renderer->config.uv_error_log2;
+    el_debug_surface(renderer, el_list_record(list, name), &surface);
+    const el_sampled_rest rest = el_sampled_draw(corners, &surface, target, painter->stats, triangle);
+    if (rest == EL_SAMPLED_DONE || !painter->goes_on) {
+        return 0;
+    }
+    if (rest == EL_SAMPLED_GOES_ON || place->name == 0) {
+        return name;
+    }
+    const uint16_t carried = place->name;
+    place->state->order = name;
+    find_sampled_place(place, &painter->carrying, list);
+    return carried;
+}
+
+/* el_painter_draw where pixels have several samples, of the chains that begin with `fresh` and `carried`. */
+static EL_APART void draw_band_sampled(el_painter *painter, const el_renderer *renderer, const el_target *target,
+                                       uint16_t fresh, uint16_t carried)
+{
+    const el_list *const list = &renderer->list;
+    el_carrying *const c = &painter->carrying;
+    const el_sampled_target sampled = sampled_target(painter, renderer, target);
+    sampled_place place;
+    find_sampled_place(&place, c, list);
+    uint16_t *last = &c->first;
+    while (fresh != 0 || carried != 0) {
+        uint16_t *const taken = carried == 0 || (fresh != 0 && fresh < order_of(c, list, carried)) ? &fresh : &carried;
+        const uint16_t listed = *taken;
+        *taken = *(const uint16_t *)el_list_at(list, listed);
+        const uint16_t name = draw_sampled(painter, renderer, listed, &sampled, &place);
+        if (name != 0) {
+            *last = name;
+            last = el_list_at(list, name);
+        }
+    }
+    *last = 0;
+    if (place.name != 0) {
+        give_state(c, list, EL_STATE_SAMPLED, place.name);
+    }
+}
+#endif
+
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
 OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
@@ -488,13 +611,19 @@ OF_WORKERS_TOO void el_painter_draw(el_painter *painter, const el_renderer *rend
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
 #if EL_WITH_PREPASS
-    painter->first_depth =
-        renderer->config.depth_prepass && !painter->band_is_open && renderer->config.view == EL_DEBUG_PICTURE;
+    painter->first_depth = renderer->config.depth_prepass && !painter->band_is_open &&
+                           renderer->config.view == EL_DEBUG_PICTURE && el_renderer_samples(renderer) == 1;
 #endif
     const el_target target = open_band(painter, renderer, band);
     painter->goes_on = goes_on;
     uint16_t fresh = el_list_take_bin(list, band);
     uint16_t carried = c->first;
+#if EL_WITH_SAMPLES
+    if (el_renderer_samples(renderer) > 1) {
+        draw_band_sampled(painter, renderer, &target, fresh, carried);
+        return;
+    }
+#endif
 #if EL_WITH_HIDDEN
     el_hidden hidden;
     painter->hidden = &hidden;

@@ -10,6 +10,13 @@ static inline el_painter *el_renderer_painter(el_renderer *renderer, unsigned wo
     return !EL_WITH_WORKERS || worker == 0 ? &renderer->painter : &renderer->others[worker - 1U].painter;
 }
 
+/* Samples per pixel of the frame: a view of what is drawn has one. */
+static inline unsigned el_renderer_samples(const el_renderer *renderer)
+{
+    const unsigned samples = renderer->config.samples;
+    return EL_WITH_SAMPLES && samples > 1U && renderer->config.view == EL_DEBUG_PICTURE ? samples : 1U;
+}
+
 /* Counts a use of `bytes` of the list's memory in the peak. */
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes);
 

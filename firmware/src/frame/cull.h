@@ -35,6 +35,8 @@ typedef struct el_culling {
     int32_t height;
     int32_t row_begin; /* rows of the pass, on the screen */
     int32_t row_end;
+    int32_t
+        reach; /* how far samples are from their pixel's centre on either axis, in 1/EL_SUBPIXELS px; 0: it has one */
 } el_culling;
 
 /* Rows of a triangle that is seen: [first, end), of which `begin` is the first in the pass. */
@@ -60,10 +62,11 @@ static inline el_verdict el_cull(const el_culling *culling, const el_screen_vert
     if ((area > 0) == (culling->facing > 0) && !culling->two_sided) {
         return EL_VERDICT_BACK;
     }
-    const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])));
-    const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])));
-    rows->first = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])));
-    rows->end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])));
+    const int32_t reach = EL_WITH_SAMPLES ? culling->reach : 0;
+    const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])) - reach);
+    const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])) + reach);
+    rows->first = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])) - reach);
+    rows->end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])) + reach);
     if (x_begin >= x_end || rows->first >= rows->end) {
         return EL_VERDICT_EMPTY;
     }
@@ -95,9 +98,11 @@ static inline uint16x2_t el_packed_point(const el_screen_vertex *v)
     return yx;
 }
 
-/* The same for a triangle whose corners are all in the view: 0 <= x, y <= EL_SUBPIXELS * 2040 < 2^15. */
+/* The same for a triangle whose corners are all in the view: 0 <= x, y <= EL_SUBPIXELS * 2040 < 2^15. `reach`: the culling's,
+ * which the compiler may know, less than EL_SUBPIXELS / 2. */
 static inline el_verdict el_cull_in_view(const el_culling *culling, const el_screen_vertex *a,
-                                         const el_screen_vertex *b, const el_screen_vertex *c, el_cull_rows *rows)
+                                         const el_screen_vertex *b, const el_screen_vertex *c, uint32_t reach,
+                                         el_cull_rows *rows)
 {
     const uint16x2_t p = el_packed_point(a);
     const uint16x2_t q = el_packed_point(b);
@@ -117,9 +122,9 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
     uint32_t most = __sel(p, q);
     uint32_t least = __sel(q, p);
     (void)__usub16(most, r);
-    most = __sel(most, r) + (EL_SUBPIXELS / 2 - 1) * 0x10001U;
+    most = __sel(most, r) + (EL_SUBPIXELS / 2 - 1 + reach) * 0x10001U;
     (void)__usub16(least, r);
-    least = __sel(r, least) + (EL_SUBPIXELS / 2 - 1) * 0x10001U;
+    least = __sel(r, least) + (EL_SUBPIXELS / 2 - 1 - reach) * 0x10001U;
     /* A row is where the bits of whole pixels differ. */
     const uint32_t unlike = least ^ most;
     if (unlike >> (16 + EL_SUBPIXEL_BITS) == 0 || (unlike & (0x10000U - EL_SUBPIXELS)) == 0) {
@@ -131,9 +136,10 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
 }
 #else
 /* The same for a triangle whose corners are all in the view: 0 <= x, y <= EL_SUBPIXELS * 2040 < 2^15. Thumb's first set
- * loads unsigned half words only at an offset. */
+ * loads unsigned half words only at an offset. `reach`: the culling's, which the compiler may know. */
 static inline el_verdict el_cull_in_view(const el_culling *culling, const el_screen_vertex *a,
-                                         const el_screen_vertex *b, const el_screen_vertex *c, el_cull_rows *rows)
+                                         const el_screen_vertex *b, const el_screen_vertex *c, uint32_t reach,
+                                         el_cull_rows *rows)
 {
     const int32_t x0 = (uint16_t)a->x;
     const int32_t y0 = (uint16_t)a->y;
@@ -161,14 +167,14 @@ static inline el_verdict el_cull_in_view(const el_culling *culling, const el_scr
     top = el_min_i32(top, y0);
     bottom = el_max_i32(bottom, y0);
     const int32_t height = bottom - top;
-    rows->first = el_first_centre(top);
-    rows->end = el_first_centre(bottom);
+    rows->first = el_first_centre(top - (int32_t)reach);
+    rows->end = el_first_centre(bottom + (int32_t)reach);
     if (height < EL_SUBPIXELS && rows->first == rows->end) {
         return EL_VERDICT_EMPTY;
     }
     /* An area is its box' at most: where it is that of a column as wide as a pixel, a column of centres lies inside. */
-    if (area > -height * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0)) ==
-                                             el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0))) {
+    if (area > -height * EL_SUBPIXELS && el_first_centre(x0 + el_min_i32(el_min_i32(x1, x2), 0) - (int32_t)reach) ==
+                                             el_first_centre(x0 + el_max_i32(el_max_i32(x1, x2), 0) + (int32_t)reach)) {
         return EL_VERDICT_EMPTY;
     }
     return el_cull_begun(culling, rows);

@@ -373,6 +373,9 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return EL_ERROR_MATERIAL;
     }
 #endif
+    if (EL_WITH_SAMPLES && material->shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
+        return EL_ERROR_MATERIAL;
+    }
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -412,7 +415,8 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         .culling = {.facing = state.mirrored != 0 ? -1 : 1,
                     .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                     .width = renderer->config.width,
-                    .height = renderer->config.height},
+                    .height = renderer->config.height,
+                    .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0},
         .by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1,
     };
     el_list_end_draw(&renderer->list);

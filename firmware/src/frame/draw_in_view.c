@@ -52,8 +52,9 @@ static inline uint32_t all_but_backs(const el_drawing *d)
 }
 
 /* Looks at the triangles from number `index` on while they are simple, and there is room for the record in the open run.
- * Returns the number of the first that is not. `shared` as in the list. */
-static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint32_t end, source from, bool shared)
+ * Returns the number of the first that is not. `shared` as in the list; `reach` as in the culling. */
+static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint32_t end, source from, bool shared,
+                                            uint32_t reach)
 {
     const el_list list = *d->list;
     const el_record_kind kind = el_drawing_kind(d);
@@ -90,7 +91,7 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
             continue;
         }
         el_cull_rows rows;
-        const el_verdict verdict = el_cull_in_view(&culling, v[0], v[1], v[2], &rows);
+        const el_verdict verdict = el_cull_in_view(&culling, v[0], v[1], v[2], reach, &rows);
         if (verdict != EL_VERDICT_SEEN) {
             if (verdict != EL_VERDICT_BACK) {
                 d->verdicts[verdict]++;
@@ -131,12 +132,12 @@ static EL_SPECIALISED uint32_t list_in_view(el_drawing *d, uint32_t index, uint3
 
 static EL_APART uint32_t list_direct(el_drawing *d, uint32_t index, uint32_t end)
 {
-    return list_in_view(d, index, end, DIRECT, false);
+    return list_in_view(d, index, end, DIRECT, false, 0);
 }
 
 static EL_APART uint32_t list_stretched(el_drawing *d, uint32_t index, uint32_t end)
 {
-    return list_in_view(d, index, end, STRETCHED, false);
+    return list_in_view(d, index, end, STRETCHED, false, 0);
 }
 
 /* How many of the next triangles, a few at least, ask for one vertex after the other; 0: fewer. In pairs, which are three
@@ -231,7 +232,7 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
         } else {
             el_vertices_clear_overlaid(d);
             stop = el_min_u32(end, index + CHUNK - index % 2U);
-            index = list_in_view(d, index, stop, CACHED, false);
+            index = list_in_view(d, index, stop, CACHED, false, 0);
         }
         if (index != stop) {
             break;
@@ -240,10 +241,23 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
     return index;
 }
 
+#if EL_WITH_SAMPLES
+/* Where pixels have several samples: what is taken into account of a triangle is a little larger. */
+static EL_APART uint32_t list_sampled(el_drawing *d, uint32_t index, uint32_t end)
+{
+    return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, d->list->is_shared, (uint32_t)d->culling.reach);
+}
+#endif
+
 uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end)
 {
+#if EL_WITH_SAMPLES
+    if (d->culling.reach != 0) {
+        return list_sampled(d, index, end);
+    }
+#endif
     if (EL_WITH_WORKERS && d->list->is_shared) {
-        return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, true);
+        return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, true, 0);
     }
     return d->direct ? list_direct(d, index, end) : list_cached(d, index, end);
 }

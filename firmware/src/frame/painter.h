@@ -10,8 +10,10 @@
 #include "base/stats.h"
 #include "raster/list.h"
 
-/* What sizes of states there are: one for each el_shading, and that of tiny triangles, which small code has not. */
+/* What sizes of states there are: one for each el_shading, and that of tiny triangles, which small code has not. Where pixels
+ * have several samples, there is one size. */
 typedef enum el_state_kind {
+    EL_STATE_SAMPLED = EL_SHADE_FLAT,
     EL_STATE_TINY = EL_SHADE_OVERDRAW + 1,
     EL_STATE_KINDS = EL_SHADE_OVERDRAW + (EL_SMALL_CODE ? 1 : 2)
 } el_state_kind;
@@ -48,6 +50,9 @@ typedef struct el_painter {
     el_carrying carrying;
     el_band bands[2];
     uint16_t *depth[2]; /* of each band; one and the same where there is one worker */
+#if EL_WITH_SAMPLES
+    uint32_t *samples; /* mixed bits, and samples behind them (raster/samples.h); NULL: there is no memory for any */
+#endif
 #if EL_WITH_HIDDEN
     el_hidden *hidden; /* of the band that is drawn into */
 #endif

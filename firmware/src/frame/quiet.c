@@ -237,7 +237,8 @@ void el_quiet_begin(el_renderer *renderer)
     quiet->band_takers = quiet->takers;
     quiet->looks = (reuse_of(renderer) & EL_REUSE_FRAME) != 0;
     if (quiet->looks) {
-        const uint32_t settings = hash_pair(config->background, config->uv_error_log2, config->shading_off);
+        const uint32_t settings =
+            hash_pair(config->background, (uint32_t)config->samples << 8 | config->uv_error_log2, config->shading_off);
         quiet->submitted = hash_view(settings, &renderer->view);
     }
 }

@@ -14,6 +14,12 @@ _Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_ME
 _Static_assert(sizeof(el_worker) <= EL_PAINTER_BYTES, "the size that EL_WORKERS_BYTES counts with");
 _Static_assert(sizeof(el_run) + EL_DRAW_STATE_BYTES <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
+static bool samples_are_valid(const el_config *config)
+{
+    return config->samples <= 1 || (EL_WITH_SAMPLES && (config->samples == 4 || config->samples == EL_MAX_SAMPLES) &&
+                                    !config->depth_prepass && config->view == EL_DEBUG_PICTURE);
+}
+
 el_status el_init(el_renderer *renderer, const el_config *config)
 {
     if (renderer == NULL || config == NULL || config->memory == NULL) {
@@ -22,7 +28,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
         config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
-        (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS)) {
+        (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS) ||
+        !samples_are_valid(config)) {
         return EL_ERROR_SIZE;
     }
     const uint32_t width = config->width;
@@ -32,8 +39,9 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_SIZE;
     }
     const uint32_t workers = EL_WITH_WORKERS && config->workers != NULL ? config->workers->count : 1U;
-    const uint32_t least =
-        EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, config->height, lines, workers);
+    const uint32_t sample_bytes = EL_WITH_SAMPLES ? EL_SAMPLES_BYTES(width, lines, config->samples) : 0U;
+    const uint32_t least = EL_MIN_MEMORY_BYTES(width, config->height, lines) +
+                           EL_WORKERS_BYTES(width, config->height, lines, workers) + workers * sample_bytes;
     if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {
         return EL_ERROR_MEMORY;
     }
@@ -45,7 +53,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
 
     renderer->workers = (uint8_t)workers;
 
-    /* Two colour bands of each core, bins, the other cores' painters and bins, list ..., depth bands: the vertices of a draw lie at
+    /* Two colour bands of each core, bins, the other cores' painters and bins, all cores' samples, list ..., depth bands: the vertices of a draw lie at
      * the end of the list's memory and reach over the depth bands while no band is open. Names of records do not reach
      * beyond EL_LIST_MAX_BYTES; what is more stays unused. */
     const uint32_t skipped = (uint32_t)(-(uintptr_t)config->memory & 7U);
@@ -57,7 +65,8 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     const uint32_t others_at = bins_at + EL_BIN_BYTES(config->height, lines);
     const uint32_t bin_bytes = EL_BIN_BYTES(config->height, lines);
     const uint32_t part_bins_at = others_at + (workers - 1U) * EL_PAINTER_BYTES;
-    const uint32_t list_at = part_bins_at + (workers - 1U) * bin_bytes;
+    const uint32_t samples_at = part_bins_at + (workers - 1U) * bin_bytes;
+    const uint32_t list_at = samples_at + workers * sample_bytes;
     renderer->depth_bytes = workers > 1 ? 2 * workers * one_depth : one_depth;
     const uint32_t left = bytes - list_at - renderer->depth_bytes;
     renderer->list_bytes = left < EL_LIST_MAX_BYTES ? left : EL_LIST_MAX_BYTES;
@@ -77,6 +86,13 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
         band->depth = painter->depth[i % 2];
     }
+#if EL_WITH_SAMPLES
+    for (unsigned i = 0; i < workers && sample_bytes > 0; i++) {
+        el_painter *const painter = el_renderer_painter(renderer, i);
+        painter->samples = (uint32_t *)(void *)(memory + samples_at + i * sample_bytes);
+        memset(painter->samples, 0, 4U * EL_MIXED_WORDS(width) * lines);
+    }
+#endif
     el_list_init(&renderer->list, memory + list_at, renderer->list_bytes, (uint16_t *)(void *)(memory + bins_at),
                  renderer->band_count, config->band_lines);
 #if EL_WITH_WORKERS
@@ -104,6 +120,9 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     }
     memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
+#if EL_WITH_SAMPLES
+    renderer->list.reach = el_samples_reach(el_renderer_samples(renderer));
+#endif
     el_quiet_begin(renderer);
     begin_pass(renderer, 0);
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {

@@ -29,6 +29,7 @@
 #include "geometry/transform.h"
 #include "raster/list.h"
 #include "raster/material.h"
+#include "raster/samples.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -87,6 +88,13 @@ enum {
                                         EL_BIN_BYTES(height, band_lines)) +                                            \
                           (2U * (workers)-1U) * EL_DEPTH_BAND_BYTES(width, band_lines))
 
+/* What comes to it with 4 or 8 samples per pixel, for each core: four bytes for each sample of a band, and a bit for each
+ * pixel. */
+#define EL_SAMPLES_BYTES(width, band_lines, samples)                                                                   \
+    ((samples) < 2U ? 0U                                                                                               \
+                    : EL_ROUND_UP_8(4U * EL_MIXED_WORDS(width) * (band_lines)) +                                       \
+                          EL_ROUND_UP_8(4U * (samples) * (width) * (band_lines)))
+
 /* What of the frame before need not be made again; bits of el_config.reuse. The renderer's sinks must get frames from no
  * other one, and only sinks that can do without unchanged lines (el_sink.unchanged) save anything. */
 enum {
@@ -110,10 +118,16 @@ typedef struct el_config {
     uint8_t view;          /* el_debug_view */
     uint8_t shading_off;   /* bits of el_shading that no surface uses, see debug_view.h */
     uint8_t reuse;         /* EL_REUSE_, 0: every frame is made anew */
+    /* Samples per pixel: 0 or 1, 4 or 8 (raster/samples.h): edges are smooth, inside of triangles nothing changes. A
+     * pixel has its depth once for each triangle: where two pass through each other they meet as they do without. May be
+     * changed between frames to what needs no more memory than there was for el_init. With several samples there is no
+     * depth pre-pass and no EL_SHADE_OVERDRAW, hidden triangles are found pixel by pixel, and each triangle is set up in each
+     * band; a debug view shows the frame without. */
+    uint8_t samples;
     bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
                               and much lies behind other things; may be changed between frames too */
     void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
-    size_t memory_bytes; /* at least EL_MIN_MEMORY_BYTES */
+    size_t memory_bytes; /* at least EL_MIN_MEMORY_BYTES, and EL_SAMPLES_BYTES for each core */
     const el_sink *sinks[EL_MAX_SINKS]; /* where bands go; NULL where there is none */
     /* Drawn into each band before its triangles and after them (after a debug view, too). NULL: none. What is exchanged
      * for another one between frames needs el_frame_forget with `reuse`. */

@@ -1,11 +1,10 @@
-/* All fills in small code: one loop, which asks at each pixel what its shading needs, and one row at a time, whose state
- * stays in the triangle. The pixels are those of fill.c and fill_texture.c. */
+/* All fills in small code, and those of rare shadings where pixels have several samples: one loop, which asks at each pixel
+ * what its shading needs, and one row at a time, whose state stays in the triangle. The pixels are those of fill.c and
+ * fill_texture.c. */
 #include "base/fixed.h"
-#include "raster/fill.h"
-#include "raster/texel.h"
-#include "raster/texture_walk.h"
+#include "raster/fill_row.h"
 
-#if EL_SMALL_CODE
+#if EL_SMALL_CODE || EL_WITH_SAMPLES
 
 /* The triangle's linear values in column x of its next row. */
 static inline el_values values_at(const el_triangle *triangle, uint32_t x, unsigned kind)
@@ -29,15 +28,11 @@ static EL_APART_IF_SMALL uint16_t shaded(uint32_t texel, const el_values *v, uin
     return el_modulate(texel, v, threshold_q16, kind);
 }
 
-/* What a textured triangle is drawn with. */
-typedef struct brush {
-    el_texel_source source;
-    el_texture_walk walk;
-} brush;
-
-/* Pixels [x, x_end) of the triangle's next row, in pieces along which texture coordinates are linear. */
-static EL_APART_IF_SMALL void draw_row(const el_triangle *triangle, brush *b, const el_cursor *cursor, uint32_t x,
-                                       uint32_t x_end)
+#if !EL_WITH_SAMPLES
+static EL_APART_IF_SMALL
+#endif
+    void
+    el_fill_row(const el_triangle *triangle, el_row_brush *b, const el_cursor *cursor, uint32_t x, uint32_t x_end)
 {
     const unsigned kind = triangle->kind;
     const bool counts_hidden = EL_WITH_DEBUG_VIEWS && (kind & EL_FILL_COUNT) != 0 && (kind & EL_FILL_DEPTH) != 0;
@@ -97,6 +92,7 @@ static EL_APART_IF_SMALL void draw_row(const el_triangle *triangle, brush *b, co
     }
 }
 
+#if EL_SMALL_CODE
 static void plane_next_row(el_plane *plane)
 {
     plane->value += plane->dy;
@@ -136,11 +132,8 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
     }
 #endif
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
-    brush b;
-    if ((kind & EL_FILL_TEXTURE) != 0) {
-        b.source = el_texel_source_of(triangle->surface.texture);
-        el_texture_walk_start(&b.walk, triangle);
-    }
+    el_row_brush b;
+    el_row_brush_begin(&b, triangle);
     while (triangle->y < y_end) {
         const int32_t x = el_max_i32(el_edge_x(&triangle->left), 0);
         const int32_t x_end = el_min_i32(el_edge_x(&triangle->right), target->width);
@@ -148,10 +141,11 @@ void el_triangle_draw(el_triangle *triangle, const el_target *target, el_stats *
         if (x < x_end) {
             el_count(&stats->spans, 1);
             el_count(&stats->pixels, (uint32_t)(x_end - x));
-            draw_row(triangle, &b, &cursor, (uint32_t)x, (uint32_t)x_end);
+            el_fill_row(triangle, &b, &cursor, (uint32_t)x, (uint32_t)x_end);
         }
         next_row(triangle, kind);
         cursor.row += target->width;
     }
 }
+#endif
 #endif

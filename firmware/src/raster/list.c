@@ -14,6 +14,9 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
     list->bin_count = bin_count;
     list->is_shared = false;
     list->has_gaps = false;
+#if EL_WITH_SAMPLES
+    list->reach = 0;
+#endif
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
@@ -128,13 +131,14 @@ void el_list_join(el_list *list, const el_list *more, uint32_t begin)
 }
 #endif
 
-static int32_t first_row(const el_record *record, el_record_kind kind)
+static int32_t first_row(const el_list *list, const el_record *record, el_record_kind kind)
 {
     if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
         return record->at.row;
     }
     const el_point *const points = record->at.points;
-    return el_first_centre(el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y)));
+    const int32_t reach = EL_WITH_SAMPLES ? list->reach : 0;
+    return el_first_centre(el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y)) - reach);
 }
 
 typedef struct run_records {
@@ -160,7 +164,7 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
         }
         at += el_list_record_bytes(from->kind);
         kept = 0;
-        const int32_t row = first_row((const el_record *)(const void *)old, from->kind);
+        const int32_t row = first_row(list, (const el_record *)(const void *)old, from->kind);
         if (row >= row_end) {
             continue;
         }

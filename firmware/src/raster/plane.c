@@ -121,6 +121,18 @@ void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint1
     start_plane(plane, &at, &g, (uint64_t)values[0] << 32);
 }
 
+#if EL_WITH_SAMPLES
+void el_plane_parts_make(el_plane_parts *parts, const el_plane_frame *frame, const int64_t values[3],
+                         unsigned fraction_bits)
+{
+    const int64_t d1 = values[1] - values[0];
+    const int64_t d2 = values[2] - values[0];
+    /* As in wide_gradient. */
+    parts->dx = divide((d1 * frame->dy2 - d2 * frame->dy1) * frame->sign, fraction_bits, &frame->area);
+    parts->dy = divide((d2 * frame->dx1 - d1 * frame->dx2) * frame->sign, fraction_bits, &frame->area);
+}
+#endif
+
 void el_channel_make(el_channel *channel, const el_plane_frame *frame, const uint16_t values[3])
 {
     const anchor at = anchor_of(frame);

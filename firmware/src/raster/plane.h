@@ -68,6 +68,18 @@ void el_plane_frame_make(el_plane_frame *frame, const int32_t x[3], const int32_
  * EL_PLANE_FRACTION_BITS. */
 void el_plane_make(el_plane *plane, const el_plane_frame *frame, const int64_t values[3], unsigned fraction_bits);
 
+#if EL_WITH_SAMPLES
+/* What a sub-pixel to the right and one down add to a plane, modulo 2^64, truncated at 2^-32: a few of them lead from a pixel's
+ * centre to its samples. */
+typedef struct el_plane_parts {
+    uint64_t dx, dy;
+} el_plane_parts;
+
+/* Of the plane that el_plane_make makes of the same. */
+void el_plane_parts_make(el_plane_parts *parts, const el_plane_frame *frame, const int64_t values[3],
+                         unsigned fraction_bits);
+#endif
+
 /* The same for depth: 0 <= values[i] < 2^16. */
 void el_plane_make_u16(el_plane *plane, const el_plane_frame *frame, const uint16_t values[3]);
 

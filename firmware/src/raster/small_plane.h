@@ -96,13 +96,15 @@ static inline uint32_t el_quotients_times(const el_small_quotient *per_x, int32_
 }
 
 /* A colour channel, 0 to 255 in 8.8. Rounded are the offset to the centre of the first corner's pixel and what a pixel is,
- * which are added up from there. */
-static inline void el_small_channel_make(el_channel *channel, const el_small_frame *frame, int32_t v0, int32_t v1,
-                                         int32_t v2)
+ * which are added up from there. Leaves its gradient to the caller. */
+static inline void el_small_channel_make_from(el_channel *channel, const el_small_frame *frame, int32_t v0, int32_t v1,
+                                              int32_t v2, el_small_quotient *x_gradient, el_small_quotient *y_gradient)
 {
     const el_small_gradient g = el_small_gradient_make(frame, v1 - v0, v2 - v0);
     const el_small_quotient per_x = el_divide_small(g.along_x, &frame->area);
     const el_small_quotient per_y = el_divide_small(g.along_y, &frame->area);
+    *x_gradient = per_x;
+    *y_gradient = per_y;
     const int32_t column = frame->x0 >> EL_SUBPIXEL_BITS;
     const int32_t row = frame->y0 >> EL_SUBPIXEL_BITS;
     const int32_t to_centre_x = column * EL_SUBPIXELS + EL_SUBPIXELS / 2 - frame->x0;
@@ -114,6 +116,14 @@ static inline void el_small_channel_make(el_channel *channel, const el_small_fra
     channel->dy = dy;
     channel->value =
         ((uint32_t)v0 << 16) + EL_CHANNEL_HALF + offset + dx * (uint32_t)-column + dy * (uint32_t)(frame->row - row);
+}
+
+static inline void el_small_channel_make(el_channel *channel, const el_small_frame *frame, int32_t v0, int32_t v1,
+                                         int32_t v2)
+{
+    el_small_quotient per_x;
+    el_small_quotient per_y;
+    el_small_channel_make_from(channel, frame, v0, v1, v2, &per_x, &per_y);
 }
 
 #ifdef __cplusplus

@@ -240,6 +240,26 @@ bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const 
     return set_up_large(triangle, &again, surface, y_begin);
 }
 
+#if EL_WITH_SAMPLES
+void el_triangle_sort(const el_corner corners[3], const el_corner *sorted[3])
+{
+    const outline o = sort_corners(corners);
+    sorted[0] = o.top;
+    sorted[1] = o.middle;
+    sorted[2] = o.bottom;
+}
+
+void el_triangle_setup_planes(el_triangle *triangle, const el_corner *const sorted[3], const el_surface *surface,
+                              int32_t row)
+{
+    const outline o = {.top = sorted[0], .middle = sorted[1], .bottom = sorted[2]};
+    triangle->surface = *surface;
+    triangle->kind = el_fill_kind(surface);
+    triangle->y = (int16_t)row;
+    make_planes(triangle, &o, false);
+}
+#endif
+
 void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle)
 {
     memcpy(depth, triangle, offsetof(el_triangle, rgb));

@@ -86,6 +86,16 @@ uint32_t el_triangle_bytes(el_shading shading);
  * and sets up nothing, when no row of the triangle is left or its area is zero. */
 bool el_triangle_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_row);
 
+#if EL_WITH_SAMPLES
+/* Puts corners into the order of their rows, and of their columns where they are level. */
+void el_triangle_sort(const el_corner corners[3], const el_corner *sorted[3]);
+
+/* Sets up what pixels are made of from `row` on, which may be any near the sorted corners: the surface, the kind, and what is
+ * linear on the screen; no edges. The area is not 0. */
+void el_triangle_setup_planes(el_triangle *triangle, const el_corner *const sorted[3], const el_surface *surface,
+                              int32_t row);
+#endif
+
 /* Makes `depth` draw the depth of what `triangle` is about to draw, if it has one; flat, in the same colour. */
 void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle);
 
