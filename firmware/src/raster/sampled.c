@@ -241,7 +241,7 @@ static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, 
     const uint32_t z = tests ? (uint32_t)((v->z + s->z_at[k]) >> 32) : 0U;
     bool mixed = false;
     if (!tests || z >= at->depth[x]) {
-        mixed = el_is_mixed(at, x);
+        mixed = el_pixel_is_mixed(at, x);
         if (tests && !mixed) {
             return;
         }
@@ -294,7 +294,7 @@ static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, co
 {
     const unsigned count = s->target->count;
     for (; x < x_end; x++) {
-        if (!el_is_mixed(at, x)) {
+        if (!el_pixel_is_mixed(at, x)) {
             continue;
         }
         const el_values v = el_values_at(slopes, (int32_t)x, kind);
@@ -310,7 +310,7 @@ static EL_SPECIALISED void draw_mixed(sampled *s, const el_sampled_place *at, co
 static void spread_all(const el_sampled_place *at, uint32_t x, uint32_t x_end, uint32_t count)
 {
     for (; x < x_end; x++) {
-        if (el_is_mixed(at, x)) {
+        if (el_pixel_is_mixed(at, x)) {
             el_spread(at, x, count);
         }
     }

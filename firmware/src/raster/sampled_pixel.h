@@ -26,7 +26,7 @@ static inline el_sampled_place el_sampled_place_at(const el_sampled_target *targ
     };
 }
 
-static inline bool el_is_mixed(const el_sampled_place *at, uint32_t x)
+static inline bool el_pixel_is_mixed(const el_sampled_place *at, uint32_t x)
 {
     return (at->mixed[x / 32U] >> (x % 32U) & 1U) != 0;
 }

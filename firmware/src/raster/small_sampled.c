@@ -165,7 +165,7 @@ static EL_SPECIALISED void draw_samples(const small_sampled *s, uint32_t x, uint
     const uint32_t old_depth = at->depth[x];
     uint32_t *const samples = at->samples + x * count;
     if (z >= old_depth) {
-        if (old_depth != 0 || !el_is_mixed(at, x)) {
+        if (old_depth != 0 || !el_pixel_is_mixed(at, x)) {
             return;
         }
         const uint32_t drawn = z << 16 | colour_at(s, x, s->rgb_at[first], kind);
@@ -241,7 +241,7 @@ static EL_APART void draw_mixed(const small_sampled *s, uint32_t x, uint32_t x_e
 {
     static const uint32_t nowhere[3] = {0, 0, 0};
     for (; x < x_end; x++) {
-        if (!el_is_mixed(&s->at, x)) {
+        if (!el_pixel_is_mixed(&s->at, x)) {
             continue;
         }
         const uint32_t drawn = depth_at(s, x, 0) << 16 | colour_at(s, x, nowhere, s->kind);
