@@ -100,14 +100,17 @@ static void test_each_sample_is_blended_with_what_it_has(void)
             };
             const el_surface surface = {
                 .depth = any_below(&s, 4) != 0,
-                .finish = EL_FINISH_MIXED,
+                .finish = any_below(&s, 2) == 0 ? EL_FINISH_MIXED : 0,
                 .colour = (uint16_t)any_u64(&s),
                 .material = &material,
             };
             const uint16_t z = (uint16_t)any_u64(&s);
+            const int32_t middle = (int32_t)any_below(&s, SIZE * EL_SUBPIXELS);
+            const int32_t reach =
+                (any_below(&s, 2) == 0 ? 6 : 30) * EL_SUBPIXELS; /* small ones have a way of their own */
             el_corner corners[3];
             for (unsigned c = 0; c < 3; c++) {
-                corners[c] = any_corner(&s, SIZE * EL_SUBPIXELS / 2, 30 * EL_SUBPIXELS);
+                corners[c] = any_corner(&s, middle, reach);
                 corners[c].z = z;
             }
             draw(&drawn, count, corners, &surface);
