@@ -60,7 +60,9 @@ FUNCTIONS = {
 
 
 def test_functions_are_found_in_sources() -> None:
-    text = "static EL_APART void two(int a,\n  int b)\n{\n    if (a) {\n    }\n}\n\nint *one(void)\n{\n}\nint no(void);\n"
+    text = (
+        "static EL_APART void two(int a,\n  int b)\n{\n    if (a) {\n    }\n}\n\nint *one(void)\n{\n}\nint no(void);\n"
+    )
     assert functions_of(text) == ["two", "one"]
     assert {"walk_sides", "el_small_gouraud_draw"} <= set(FUNCTIONS["firmware/src/raster/small_gouraud.c"])
 

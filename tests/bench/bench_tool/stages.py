@@ -104,6 +104,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/scene/*", "*", REST),
     ("firmware/src/canvas/*", "*", REST),
     ("firmware/apps/*", "*", REST),
+    ("sim/*", "*", REST),
     ("tests/bench/*", "*", REST),
 )
 
