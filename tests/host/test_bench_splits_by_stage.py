@@ -89,7 +89,7 @@ def test_every_rule_has_functions() -> None:
         ("raster/sampled.c", "sample_row", "rows"),
         ("raster/sampled.c", "draw_inner", "pixels"),
         ("raster/samples.c", "resolve_row", "pixels"),
-        ("raster/fill_mixed.c", "take_up", "set-up"),
+        ("raster/fill_mixed.c", "el_mixed_brush_begin", "set-up"),
         ("raster/fill_mixed.c", "draw_pixel", "pixels"),
         ("raster/sampler.c", "el_sampler_make", "set-up"),
         ("raster/sampler.c", "el_sampler_at", "pixels"),

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from .machines import ROOT, BenchError, Core, Machines, Measured, output_of
@@ -76,8 +76,8 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/sampled.c", "*row*", "rows"),
     ("firmware/src/raster/sampled.c", "*", "pixels"),
     ("firmware/src/raster/samples.c", "*", "pixels"),
-    ("firmware/src/raster/fill_mixed.c", "take_up", "set-up"),
-    ("firmware/src/raster/fill_mixed.c", "el_fill_mixed", "rows"),
+    ("firmware/src/raster/fill_mixed.c", "el_mixed_brush_begin", "set-up"),
+    ("firmware/src/raster/fill_mixed.c", "el_*", "rows"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
     ("firmware/src/raster/sampler.c", "*make*", "set-up"),
     ("firmware/src/raster/sampler.c", "*", "pixels"),
@@ -120,6 +120,7 @@ class Place:
     function: str
     file: str
 
+    @cache  # noqa: B019 (few places, asked for by hundred thousands of instructions)
     def rule(self) -> tuple[str, str, str | None] | None:
         """The row of RULES; None for what is not the project's."""
         path = Path(self.file)
@@ -256,8 +257,13 @@ class _Callers:
 
 def profile(machines: Machines, core: str, program: str, bits: int = 4) -> tuple[list[Measured], list[dict[int, int]]]:
     """A program's measurements on a core, and each one's executed instructions by address."""
-    path = machines.build(core, program, bits).with_suffix(".profile")
-    measured = machines.target(core, program, bits, path)
+    return profile_of(machines, core, machines.build(core, program, bits))
+
+
+def profile_of(machines: Machines, core: str, elf: Path) -> tuple[list[Measured], list[dict[int, int]]]:
+    """The same of a program that is built already."""
+    path = elf.with_suffix(".profile")
+    measured = machines.run(core, elf, path)
     profiles = read_profile(path.read_text(encoding="ascii"))
     if len(profiles) != len(measured):
         raise BenchError(f"{core}: {len(measured)} measurements, {len(profiles)} profiles")
