@@ -24,7 +24,12 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
     static const char *const names[] = {"flat", "gouraud", "textured"};
     el_material *const material = &subject->material;
     const el_texture *const texture = &subject->surface.levels[0];
+#if EL_WITH_MIXED
     const bool has_texture = texture->texels != NULL || texture->image != NULL;
+    material->alpha = subject->surface.alpha;
+#else
+    const bool has_texture = texture->texels != NULL;
+#endif
     const bool is_faceted = subject->mesh.triangle_colours != NULL && subject->mesh.colours == NULL;
     material->shading = has_texture ? EL_SHADE_TEXTURED : is_faceted ? EL_SHADE_FLAT : EL_SHADE_GOURAUD;
     if (options->shading != NULL) {
@@ -43,7 +48,6 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
         return false;
     }
     material->flags = (uint8_t)(EL_MATERIAL_FLAT_MEAN | subject->surface.flags);
-    material->alpha = subject->surface.alpha;
     material->texture = texture;
     material->light = subject->mesh.normals != NULL && material->shading != EL_SHADE_TEXTURED ? &light : NULL;
     return true;

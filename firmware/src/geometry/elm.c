@@ -315,24 +315,27 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
     return status;
 }
 
-#if EL_WITH_MIXED
 el_elm_status el_elm_open_surface(const void *bytes, size_t size, el_mesh *mesh, el_elm_surface *surface)
 {
     opened found;
-    const el_elm_status status = open_file(bytes, size, MAJOR_VERSION_SURFACE, &found);
+    const el_elm_status status = open_file(bytes, size, EL_WITH_MIXED ? MAJOR_VERSION_SURFACE : MAJOR_VERSION, &found);
     if (status != EL_ELM_OK) {
         return status;
     }
-    if (found.header.major == MAJOR_VERSION) {
-        *surface = (el_elm_surface){.alpha = 255, .levels[0] = texture_of(bytes, &found)};
-    } else if (!el_elm_surface_open((const uint8_t *)bytes + found.at.offset[SURFACE], found.header.width_log2,
-                                    found.header.height_log2, surface)) {
-        return EL_ELM_CORRUPT;
+#if EL_WITH_MIXED
+    if (found.header.major == MAJOR_VERSION_SURFACE) {
+        if (!el_elm_surface_open((const uint8_t *)bytes + found.at.offset[SURFACE], found.header.width_log2,
+                                 found.header.height_log2, surface)) {
+            return EL_ELM_CORRUPT;
+        }
+        *mesh = found.mesh;
+        return EL_ELM_OK;
     }
+#endif
+    *surface = (el_elm_surface){.alpha = 255, .levels[0] = texture_of(bytes, &found)};
     *mesh = found.mesh;
     return EL_ELM_OK;
 }
-#endif
 
 const char *el_elm_message(el_elm_status status)
 {

@@ -63,7 +63,6 @@ typedef enum el_elm_status {
  * `texture` views of them. `texture->texels` is NULL where there is none. On an error nothing is written. Of version 1. */
 el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_texture *texture);
 
-#if EL_WITH_MIXED
 enum { EL_ELM_LEVELS = EL_WITH_MIPMAPS ? 11 : 1 };
 
 /* What there is beside the mesh. It points to itself: it stays where it is. */
@@ -74,9 +73,9 @@ typedef struct el_elm_surface {
     el_image images[EL_ELM_LEVELS];
 } el_elm_surface;
 
-/* The same for both versions; that a file of version 1 is opaque and has front faces alone is what it says. */
+/* The same for both versions; a file of version 1 is opaque and has front faces alone. Without EL_WITH_MIXED a file of version
+ * 2 is refused as one for a newer Edgeline. */
 el_elm_status el_elm_open_surface(const void *bytes, size_t size, el_mesh *mesh, el_elm_surface *surface);
-#endif
 
 /* One line in English that says what is wrong. */
 const char *el_elm_message(el_elm_status status);

@@ -108,7 +108,7 @@ def with_atlases(source: Source, pixels: list[Pixels | None], levels: int) -> tu
             continue
         found = [one for one in images if one is not None]
         # Multiples of the border, so that no texel of a smaller level is of two images.
-        sizes = [[-(-side // border + -2) * border for side in one.rgb.shape[1::-1]] for one in found]
+        sizes = [[(-(-side // border) + 2) * border for side in one.rgb.shape[1::-1]] for one in found]
         width, height, places = arranged([(across, down) for across, down in sizes])
         pictures.append(_painted(found, places, width, height, border))
         parts[-1] = replace(parts[-1], name="atlas", is_atlas=True)
