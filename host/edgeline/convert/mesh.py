@@ -73,9 +73,11 @@ class Mesh:
         check_triangle_count(m)
         check_vertex_count(n)
         if int(self.triangles.max()) >= n:
-            raise EdgelineError(f"mesh triangles: index {int(self.triangles.max())} with {n} vertices")
+            text = f"mesh triangles: index {int(self.triangles.max())} with {n} vertices; convert the model again"
+            raise EdgelineError(text)
         if not MIN_SCALE_LOG2 <= self.scale_log2 <= MAX_SCALE_LOG2:
-            raise EdgelineError(f"mesh scale 2^{self.scale_log2}: it is 2^{MIN_SCALE_LOG2} to 2^{MAX_SCALE_LOG2}")
+            limits = f"it is 2^{MIN_SCALE_LOG2} to 2^{MAX_SCALE_LOG2}; convert the model again"
+            raise EdgelineError(f"mesh scale 2^{self.scale_log2}: {limits}")
         if self.radius < 0:
             centre, radius = bounding_sphere(self.positions)
             object.__setattr__(self, "centre", centre)
