@@ -268,6 +268,21 @@ def test_the_firmware_reads_the_elm_and_finds_the_header_in_it(seed: int, tmp_pa
     assert ran.stdout == "same mesh same texture same look\n"
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_cpp_takes_the_header_too(seed: int, tmp_path: Path) -> None:
+    """As Arduino's sketches include it."""
+    compiler = shutil.which("c++")
+    if compiler is None:
+        assert "CI" not in os.environ, "no C++ compiler"
+        pytest.skip("no C++ compiler")
+    mesh, texture, look = some_surface(200 + seed)
+    text = c_header("mesh", ["A test."], [NamedMesh("mesh", mesh, texture, material=look)])
+    text = text.replace('"edgeline.h"', '"raster/material.h"')
+    (tmp_path / "mesh.cpp").write_text(f"{text}\nconst el_material *material(void) {{ return &mesh_material; }}\n")
+    flags = ["-std=c++20", "-Wall", "-Wconversion", "-Werror", "-fsyntax-only", f"-I{SOURCE}"]
+    subprocess.run([compiler, *flags, str(tmp_path / "mesh.cpp")], check=True)
+
+
 def test_headers_keep_to_120_columns_and_name_no_date_or_folder() -> None:
     mesh, texture = some_mesh(101)
     text = c_header(

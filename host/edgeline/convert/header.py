@@ -1,5 +1,7 @@
 """Meshes and textures as C headers: const arrays in the layout of `geometry/mesh.h`, as compact as a compiler allows.
 
+Members are named in the order of their declarations, which C++ asks for.
+
 The text depends on nothing but the data and the words given: no dates, no folders, so that a regenerated header can be
 compared byte for byte.
 """
@@ -126,9 +128,7 @@ def level_lines(name: str, palette: str, smaller: str | None, level: Texture) ->
     if level.is_image:
         lines += image_lines(name, palette, level)
     lines += [f"static const el_texture {name}_texture = {{"]
-    if level.is_image:
-        lines += [f"    .image = &{name}_image,"]
-    else:
+    if not level.is_image:
         lines += [
             f"    .texels = {name}_texels,",
             f"    .width_log2 = {level.width_log2},",
@@ -139,6 +139,8 @@ def level_lines(name: str, palette: str, smaller: str | None, level: Texture) ->
             lines += [f"    .wrap_{axis} = EL_WRAP_{mode.name},"]
     if level.smooth:
         lines += ["    .smooth = true,"]
+    if level.is_image:
+        lines += [f"    .image = &{name}_image,"]
     if smaller is not None:
         lines += [f"    .smaller = &{smaller}_texture,"]
     return [*lines, "};"]
