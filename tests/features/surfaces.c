@@ -75,6 +75,7 @@ static el_status draw_lamps(uint32_t frame, el_renderer *renderer)
 {
     static uint8_t colours[CELLS][ROUND_TRIANGLES][3];
     static el_mesh meshes[CELLS];
+    static el_highlight highlights[2];
     static const el_material smooth = {.shading = EL_SHADE_GOURAUD};
     static const el_material facets = {.shading = EL_SHADE_FLAT};
     static const el_lamp_kind kinds[CELLS] = {EL_LAMP_POINT,       EL_LAMP_DIRECTIONAL, EL_LAMP_POINT, EL_LAMP_SPOT,
@@ -90,7 +91,8 @@ static el_status draw_lamps(uint32_t frame, el_renderer *renderer)
             .lamps = lamps, .lamp_count = i > 0, .ambient = {40, 40, 50}, .colour = {200, 180, 160}};
         if (i == 4 || i == 5) {
             lighting.specular[0] = lighting.specular[1] = lighting.specular[2] = 255;
-            lighting.shininess_log2 = i == 4 ? 3 : 6;
+            status = worse(status, el_highlight_make(&highlights[i - 4], i == 4 ? 8 : 40));
+            lighting.highlight = &highlights[i - 4];
         } else if (i == 6) {
             lighting.lamp_count = 2;
             lighting.emissive[1] = 70;

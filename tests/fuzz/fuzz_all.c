@@ -37,6 +37,7 @@ typedef struct part {
     uint32_t scales_q16[KEYS];
     el_animation animation;
     el_lamp lamps[LAMPS];
+    el_highlight highlight;
     el_lighting lighting;
     uint16_t least_px;
 } part;
@@ -96,7 +97,11 @@ static void take_motion(input *in, part *p)
 static void take_lamps(input *in, part *p)
 {
     p->lighting = (el_lighting){.lamps = p->lamps, .lamp_count = take_u8(in) % (LAMPS + 1)};
-    p->lighting.shininess_log2 = take_u8(in) % (EL_SHININESS_LOG2_MAX + 2);
+    const uint8_t sharpness = take_u8(in);
+    if (sharpness != 0) { /* of any exponent, and of none */
+        (void)el_highlight_make(&p->highlight, 5U * (sharpness - 1U));
+        p->lighting.highlight = &p->highlight;
+    }
     take_bytes(in, p->lighting.ambient, sizeof p->lighting.ambient);
     take_bytes(in, p->lighting.emissive, sizeof p->lighting.emissive);
     take_bytes(in, p->lighting.specular, sizeof p->lighting.specular);
