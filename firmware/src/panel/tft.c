@@ -13,7 +13,9 @@ enum {
     CMD_COLUMN_ADDRESS = 0x2A, /* 8.2.20; 9.1.20; 10.1.19 */
     CMD_ROW_ADDRESS = 0x2B,    /* 8.2.21; 9.1.21; 10.1.20 */
     CMD_MEMORY_WRITE = 0x2C,   /* 8.2.22; 9.1.22; 10.1.21 */
-    CMD_MEMORY_ACCESS = 0x36   /* 8.2.29; 9.1.28; 10.1.26 */
+    CMD_MEMORY_ACCESS = 0x36,  /* 8.2.29; 9.1.28; 10.1.26 */
+    CMD_SCROLL_AREA = 0x33,    /* 8.2.26; 9.1.25; none */
+    CMD_SCROLL_START = 0x37    /* 8.2.30; 9.1.29; none */
 };
 
 enum {
@@ -132,6 +134,31 @@ el_status el_tft_init(el_tft *panel, const el_tft_config *config)
 void el_tft_forget(el_tft *panel)
 {
     panel->stale = true;
+}
+
+/* The controller moves rows of its memory, whichever of them are the viewer's first, and counts all that it has. */
+el_status el_tft_scroll(el_tft *panel, uint16_t first, uint16_t end, uint16_t by)
+{
+    const el_tft_model *const model = panel->config.model;
+    if (!model->scrolls) {
+        return EL_ERROR_ARGUMENT;
+    }
+    if (first >= end || end > model->rows || by >= end - first) {
+        return EL_ERROR_SIZE;
+    }
+    const el_bus *const bus = panel->config.bus;
+    const bool reversed = (memory_access(panel) & EL_TFT_ACCESS_MY) != 0;
+    const unsigned rows = (unsigned)end - first;
+    const unsigned top = model->first_row + (reversed ? (unsigned)model->rows - end : first);
+    const unsigned bottom = model->memory_rows - top - rows;
+    const unsigned start = top + (reversed && by > 0 ? rows - by : by);
+    const uint8_t area[6] = {(uint8_t)(top >> 8), (uint8_t)top,           (uint8_t)(rows >> 8),
+                             (uint8_t)rows,       (uint8_t)(bottom >> 8), (uint8_t)bottom};
+    const uint8_t line[2] = {(uint8_t)(start >> 8), (uint8_t)start};
+    send(bus, CMD_SCROLL_AREA, area, sizeof area);
+    send(bus, CMD_SCROLL_START, line, sizeof line);
+    panel->next_line = NO_LINE; /* no pixel goes on where the last one was */
+    return EL_OK;
 }
 
 static void set_range(const el_bus *bus, uint8_t code, unsigned begin, unsigned end)
