@@ -26,11 +26,16 @@ void el_bands_flush(el_renderer *renderer);
 /* Draws the pass' bands and hands them over. */
 void el_bands_finish(el_renderer *renderer);
 
-#if EL_WITH_WORKERS
-/* For frame/workers.c: */
+/* What one core does with a band, frame/painter.c: */
 
 /* Lets `painter` carry what it may in bytes [begin, end) of the list's memory, and count in `stats`. */
-void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats);
+static inline void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end,
+                                    el_stats *stats)
+{
+    painter->stats = stats;
+    painter->carrying =
+        (el_carrying){.first_state = (uint16_t)(list->used / EL_LIST_UNIT), .begin = begin, .used = begin, .end = end};
+}
 
 /* Draws the triangles of `band` and those carried on from above into the painter's current buffer, which is free. Carries
  * on what reaches beyond, where `goes_on`. */
@@ -38,6 +43,9 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t 
 
 /* All triangles of the painter's current band are drawn: what comes over them. */
 void el_painter_finish(el_painter *painter, const el_renderer *renderer);
+
+#if EL_WITH_WORKERS
+/* For frame/workers.c: */
 
 /* Gives a complete band to the sinks. */
 void el_bands_hand_over(el_renderer *renderer, el_band *band);
