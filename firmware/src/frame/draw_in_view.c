@@ -241,19 +241,23 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
     return index;
 }
 
-#if EL_WITH_SAMPLES
-/* Where pixels have several samples: what is taken into account of a triangle is a little larger. */
-static EL_APART uint32_t list_sampled(el_drawing *d, uint32_t index, uint32_t end)
+#if EL_WITH_SAMPLES || EL_WITH_WIRES
+/* Where pixels have several samples: what is taken into account of a triangle is a little larger. That of wires is too large
+ * for el_cull_in_view. */
+static EL_APART uint32_t list_reaching(el_drawing *d, uint32_t index, uint32_t end)
 {
+    if ((d->state->finish & EL_FINISH_WIRES) != 0) {
+        return index;
+    }
     return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, d->list->is_shared, (uint32_t)d->culling.reach);
 }
 #endif
 
 uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end)
 {
-#if EL_WITH_SAMPLES
+#if EL_WITH_SAMPLES || EL_WITH_WIRES
     if (d->culling.reach != 0) {
-        return list_sampled(d, index, end);
+        return list_reaching(d, index, end);
     }
 #endif
     if (EL_WITH_WORKERS && d->list->is_shared) {

@@ -340,7 +340,7 @@ unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_c
     *surface = (el_surface){
         .shading = EL_SHADE_FLAT,
         .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW &&
-                 (draw->finish & EL_FINISH_MIXED) == 0,
+                 (draw->finish & (EL_FINISH_MIXED | EL_FINISH_WIRES)) == 0,
     };
     if (!surface->depth) {
         return 0U;

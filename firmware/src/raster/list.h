@@ -116,7 +116,10 @@ typedef struct el_attributes {
 
 typedef struct el_record_clipped {
     el_record_perspective perspective;
-    el_attributes attributes[3];
+    union {
+        el_attributes attributes[3];
+        uint8_t edges; /* of wires: bit i, from corner i to the next one */
+    };
 } el_record_clipped;
 
 typedef struct el_list {
