@@ -1,6 +1,10 @@
-/* A pass, band by band: waiting for buffers, having them drawn (painter.c), handing them over. */
+/* A pass, band by band: waiting for buffers, opening them, having them drawn (painter.c), handing them over. */
 #include "frame/bands.h"
 
+#include "base/fill.h"
+#include "base/fixed.h"
+#include "frame/debug_hooks.h"
+#include "frame/painter_sampled.h"
 #include "frame/quiet.h"
 
 /* What frame/workers.c calls too, if there are workers. */
@@ -9,6 +13,9 @@
 #else
 #define OF_WORKERS_TOO static
 #endif
+
+/* What a depth band is cleared to; before a pre-pass a unit less, which is added then (painter.c). */
+enum { EMPTY = 0xFFFF, FARTHEST = EL_DEPTH_MAX };
 
 OF_WORKERS_TOO void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band)
 {
@@ -34,6 +41,53 @@ OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, 
     el_count(&renderer->stats.bands, 1);
 }
 
+static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *layer)
+{
+    if (layer != NULL) {
+        layer->draw(layer->context, &painter->bands[painter->current]);
+    }
+}
+
+/* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
+static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
+{
+    const el_config *const config = &renderer->config;
+    el_band *const buffer = &painter->bands[painter->current];
+    uint16_t *const depth = painter->depth[painter->current];
+    const int32_t y = band * config->band_lines;
+    const int32_t y_end = el_min_i32(y + config->band_lines, config->height);
+    if (!painter->band_is_open) {
+        buffer->y = (uint16_t)y;
+        buffer->lines = (uint16_t)(y_end - y);
+        const uint32_t pixels = (uint32_t)buffer->lines * config->width;
+        el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
+        el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
+        draw_layer(painter, config->under);
+        painter->band_is_open = 1;
+    }
+    return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
+}
+
+OF_WORKERS_TOO void el_bands_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
+{
+#if EL_WITH_PREPASS
+    painter->first_depth = renderer->config.depth_prepass && !painter->band_is_open &&
+                           renderer->config.view == EL_DEBUG_PICTURE && el_renderer_samples(renderer) == 1;
+#endif
+    const el_target target = open_band(painter, renderer, band);
+    painter->goes_on = goes_on;
+    el_painter_draw(painter, renderer, &target, el_list_take_bin(&renderer->list, band));
+}
+
+OF_WORKERS_TOO void el_bands_complete(el_painter *painter, const el_renderer *renderer)
+{
+#if EL_WITH_SAMPLES
+    el_painter_resolve_samples(painter, renderer);
+#endif
+    el_debug_finish_band(renderer, painter);
+    draw_layer(painter, renderer->config.over);
+}
+
 void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
 {
     const uint32_t use = renderer->fixed_bytes + bytes;
@@ -44,7 +98,8 @@ void el_bands_note_use(el_renderer *renderer, uint32_t bytes)
 
 static void draw_pass(el_renderer *renderer, bool hand_over_bands)
 {
-    el_painter *const painter = &renderer->painter;
+    el_painter *painter = &renderer->painter;
+    EL_SETTLE(painter); /* its address is not made anew at each use */
     el_painter_begin(painter, &renderer->list, renderer->list.used, renderer->list.end, &renderer->stats);
     for (uint16_t band = renderer->pass_begin; band < renderer->pass_end; band++) {
         el_band *const buffer = &painter->bands[painter->current];
@@ -55,22 +110,22 @@ static void draw_pass(el_renderer *renderer, bool hand_over_bands)
         while (!painter->band_is_open && !el_band_is_free(buffer)) {
             el_bands_wait_for_sinks(renderer, buffer);
         }
-        el_painter_draw(painter, renderer, band, band + 1 < renderer->pass_end);
+        el_bands_draw(painter, renderer, band, band + 1 < renderer->pass_end);
         if (hand_over_bands) {
-            el_painter_finish(painter, renderer);
+            el_bands_complete(painter, renderer);
             el_bands_hand_over(renderer, buffer);
             painter->current ^= 1U;
             painter->band_is_open = 0;
         }
     }
     el_bands_note_use(renderer, painter->carrying.used);
+    el_list_clear(&renderer->list);
 }
 
 void el_bands_flush(el_renderer *renderer)
 {
     el_count(&renderer->stats.flushes, 1);
     draw_pass(renderer, false);
-    el_list_clear(&renderer->list);
 }
 
 void el_bands_finish(el_renderer *renderer)
@@ -79,11 +134,8 @@ void el_bands_finish(el_renderer *renderer)
     /* An open band is the pass' only one, and in the caller's core's buffer. */
     if (renderer->workers > 1 && !renderer->painter.band_is_open) {
         el_workers_draw_pass(renderer);
-    } else {
-        draw_pass(renderer, true);
+        return;
     }
-#else
-    draw_pass(renderer, true);
 #endif
-    el_list_clear(&renderer->list);
+    draw_pass(renderer, true);
 }

@@ -11,8 +11,6 @@ typedef struct el_carried {
     uint16_t order; /* name of the record, or of its share in a group */
 } el_carried;
 
-enum { EL_NO_ORDER = 0xFFFF }; /* after all names: a list ends before that unit */
-
 /* A state of a kind, which has so many bytes; returns its name, or 0 where there is no memory left. */
 static EL_SPECIALISED uint16_t el_carrying_take(el_carrying *c, const el_list *list, el_state_kind kind,
                                                 uint32_t state_bytes)
@@ -37,13 +35,16 @@ static inline void el_carrying_give(el_carrying *c, const el_list *list, el_stat
     c->given_back[kind] = name;
 }
 
-/* The place of something carried in the order of submission. */
+/* The place of something carried in the order of submission; 0 of nothing. */
 static inline uint16_t el_carrying_order(const el_carrying *c, const el_list *list, uint16_t name)
 {
-    if (name == 0) {
-        return EL_NO_ORDER;
-    }
     return !EL_WITH_CARRY || name < c->first_state ? name : ((const el_carried *)el_list_at(list, name))->order;
+}
+
+/* Whether the first of two was submitted before the second; nothing is after everything. */
+static inline bool el_is_earlier(uint16_t order, uint16_t other)
+{
+    return order - 1U < other - 1U;
 }
 
 #endif

@@ -56,7 +56,7 @@ static void fill_clipped(el_record *record, const el_draw_state *draw, const el_
 {
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
 #if EL_WITH_WIRES
-    if ((draw->finish & EL_FINISH_WIRES) != 0) {
+    if (el_draws_wires(draw)) {
         /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the same as below. */
         const int32_t *const weights[3] = {corners[0]->attributes, corners[1]->attributes, corners[2]->attributes};
         clipped->edges = (uint8_t)el_wires_of_piece(el_mesh_edges(draw->mesh, record->index), weights);
@@ -120,7 +120,7 @@ static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
     /* Sign of the determinant of the (x, y, w) rows, with 19 bits of each, so that it stays below 2^60 whatever they
      * hold. What is turned by less looks alike lit from either side. */
     const int32_t rows[3][3] = {{v[0].x, v[0].y, v[0].w}, {v[1].x, v[1].y, v[1].w}, {v[2].x, v[2].y, v[2].w}};
-    return el_determinant_is_negative(rows, 12) != (draw->mirrored != 0);
+    return el_determinant_is_negative(rows, 12) != ((draw->flags & EL_DRAW_MIRRORED) != 0);
 }
 
 /* A corner from which a fan has triangles of one winding. Snapping can dent a cut polygon by a sub-pixel; from the wrong
@@ -161,7 +161,7 @@ static EL_APART_IF_SMALL void clip_triangle(el_drawing *d, uint16_t index, uint8
     for (unsigned i = 0; i < 3; i++) {
         corners[i] = (el_clip_corner){.position = clip[i]};
 #if EL_WITH_WIRES
-        if ((d->state->finish & EL_FINISH_WIRES) != 0) {
+        if (el_draws_wires(d->state)) {
             corners[i].attributes[i] = EL_WIRE_WEIGHT;
         }
 #endif
@@ -327,24 +327,16 @@ enum {
                (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
 };
 
+#if EL_WITH_MIXED
 /* EL_FINISH_ of its surfaces, as it is shaded. */
 static uint8_t finish_of(const el_material *material, el_shading shading)
 {
-    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
-    unsigned finish = (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
-#if EL_WITH_MIXED
-    if (shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
-                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)))) {
-        finish |= EL_FINISH_MIXED;
-    }
-#endif
-    if (shading == EL_SHADE_FLAT && (material->flags & EL_MATERIAL_WIRES) != 0) {
-        finish |= EL_FINISH_WIRES;
-    }
-    return (uint8_t)finish;
+    const bool is_mixed =
+        shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
+                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+    return (uint8_t)(el_dithering_of(material, shading) | (is_mixed ? EL_FINISH_MIXED : 0U));
 }
 
-#if EL_WITH_MIXED
 /* Of a material that is good otherwise: whether what it is to be mixed with can be. */
 static bool can_mix(const el_renderer *renderer, const el_material *material)
 {
@@ -423,7 +415,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         el_count(&renderer->stats.draws_culled, 1);
         return EL_OK;
     }
-    state.mirrored = state.transform.mirrored;
+    state.flags = state.transform.mirrored;
     if (el_is_lit(material)) {
         /* Into model space, by the transposed rotation. */
         for (unsigned i = 0; i < 3; i++) {
@@ -436,8 +428,11 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
-    state.finish = finish_of(material, shading);
-    const bool has_wires = (state.finish & EL_FINISH_WIRES) != 0;
+#if EL_WITH_MIXED
+    state.flags |= finish_of(material, shading);
+#endif
+    const bool has_wires = EL_WITH_WIRES && shading == EL_SHADE_FLAT && (material->flags & EL_MATERIAL_WIRES) != 0;
+    state.flags |= (uint8_t)(has_wires ? EL_FINISH_WIRES : 0);
     el_drawing d = {
         .renderer = renderer,
         .mesh = mesh,
@@ -445,7 +440,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         .list = &renderer->list,
         .kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN,
         .cut_kind = el_has_texture(shading) || el_has_colours(shading) || has_wires ? EL_RECORD_CLIPPED : EL_RECORD_CUT,
-        .culling = {.facing = state.mirrored != 0 ? -1 : 1,
+        .culling = {.facing = state.transform.mirrored != 0 ? -1 : 1,
                     .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                     .width = renderer->config.width,
                     .height = renderer->config.height,

@@ -246,7 +246,7 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
  * for el_cull_in_view. */
 static EL_APART uint32_t list_reaching(el_drawing *d, uint32_t index, uint32_t end)
 {
-    if ((d->state->finish & EL_FINISH_WIRES) != 0) {
+    if (el_draws_wires(d->state)) {
         return index;
     }
     return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, d->list->is_shared, (uint32_t)d->culling.reach);

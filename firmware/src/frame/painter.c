@@ -35,9 +35,6 @@ typedef struct tiny_state {
 _Static_assert(offsetof(tiny_state, is_tiny) == offsetof(carried_state, is_tiny), "one may be asked for the other");
 #endif
 
-/* What a depth band is cleared to; before a pre-pass a unit less, which is added then (draw_depth_first). */
-enum { EMPTY = 0xFFFF, FARTHEST = EL_DEPTH_MAX };
-
 static uint32_t state_bytes(el_state_kind kind)
 {
 #if EL_WITH_SMALL_PLANES
@@ -51,42 +48,6 @@ static uint32_t state_bytes(el_state_kind kind)
 static uint16_t take_state(el_carrying *c, const el_list *list, el_state_kind kind)
 {
     return el_carrying_take(c, list, kind, state_bytes(kind));
-}
-
-static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *layer)
-{
-    if (layer != NULL) {
-        layer->draw(layer->context, &painter->bands[painter->current]);
-    }
-}
-
-/* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
-static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
-{
-    const el_config *const config = &renderer->config;
-    el_band *const buffer = &painter->bands[painter->current];
-    uint16_t *const depth = painter->depth[painter->current];
-    const int32_t y = band * config->band_lines;
-    const int32_t y_end = el_min_i32(y + config->band_lines, config->height);
-    if (!painter->band_is_open) {
-        buffer->y = (uint16_t)y;
-        buffer->lines = (uint16_t)(y_end - y);
-        const uint32_t pixels = (uint32_t)buffer->lines * config->width;
-        el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
-        el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
-        draw_layer(painter, config->under);
-        painter->band_is_open = 1;
-    }
-    return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
-}
-
-void el_painter_finish(el_painter *painter, const el_renderer *renderer)
-{
-#if EL_WITH_SAMPLES
-    el_painter_resolve_samples(painter, renderer);
-#endif
-    el_debug_finish_band(renderer, painter);
-    draw_layer(painter, renderer->config.over);
 }
 
 #if EL_WITH_HIDDEN
@@ -434,32 +395,25 @@ static void draw_depth_first(el_painter *painter, const el_renderer *renderer, c
 
 /* The band's own triangles and those carried on from above are merged in the order of submission. Those that reach on are
  * the new chain. */
-void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
+void el_painter_draw(el_painter *painter, const el_renderer *renderer, const el_target *target, uint16_t fresh)
 {
     const el_list *const list = &renderer->list;
     el_carrying *const c = &painter->carrying;
-#if EL_WITH_PREPASS
-    painter->first_depth = renderer->config.depth_prepass && !painter->band_is_open &&
-                           renderer->config.view == EL_DEBUG_PICTURE && el_renderer_samples(renderer) == 1;
-#endif
-    const el_target target = open_band(painter, renderer, band);
-    painter->goes_on = goes_on;
-    uint16_t fresh = el_list_take_bin(list, band);
     uint16_t carried = c->first;
 #if EL_WITH_SAMPLES
     if (el_renderer_samples(renderer) > 1) {
-        el_painter_draw_samples(painter, renderer, &target, fresh, carried);
+        el_painter_draw_samples(painter, renderer, target, fresh, carried);
         return;
     }
 #endif
 #if EL_WITH_HIDDEN
     el_hidden hidden;
     painter->hidden = &hidden;
-    el_hidden_begin(&hidden, painter->stats, (uint32_t)((target.y_end - target.y) * target.width));
+    el_hidden_begin(&hidden, painter->stats, (uint32_t)((target->y_end - target->y) * target->width));
 #endif
 #if EL_WITH_PREPASS
     if (painter->first_depth) {
-        draw_depth_first(painter, renderer, &target, fresh, carried);
+        draw_depth_first(painter, renderer, target, fresh, carried);
     }
 #endif
     uint16_t *last = &c->first;
@@ -472,17 +426,17 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t 
 #endif
     uint16_t carried_order = el_carrying_order(c, list, carried);
     for (;;) {
-        const bool is_fresh = (fresh == 0 ? EL_NO_ORDER : fresh) < carried_order;
+        const bool is_fresh = el_is_earlier(fresh, carried_order);
         const uint16_t listed = is_fresh ? fresh : carried;
         if (listed == 0) {
             break;
         }
         const uint16_t next = *(const uint16_t *)el_list_at(list, listed);
 #if EL_WITH_SMALL_PLANES
-        const uint16_t name = is_fresh && !is_apart ? draw_record(painter, renderer, listed, &target, &look, &place)
-                                                    : draw_named(painter, renderer, listed, &target);
+        const uint16_t name = is_fresh && !is_apart ? draw_record(painter, renderer, listed, target, &look, &place)
+                                                    : draw_named(painter, renderer, listed, target);
 #else
-        const uint16_t name = draw_named(painter, renderer, listed, &target);
+        const uint16_t name = draw_named(painter, renderer, listed, target);
 #endif
         if (is_fresh) {
             fresh = next;

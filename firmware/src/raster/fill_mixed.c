@@ -1,32 +1,14 @@
 /* The fill whose pixels are mixed from several things: textures of any kind, light or vertex colours, fog, and what is there
  * already. One loop for all, which asks at each pixel: what it does besides costs more than asking, and no other loop has to
  * know of it. The walk along texture coordinates is that of fill_texture.c; only what is fetched there is another. */
+#include "raster/fill_mixed.h"
 #include "base/fixed.h"
-#include "raster/fill.h"
-#include "raster/fog.h"
-#include "raster/sampler.h"
 #include "raster/texel.h"
 #include "raster/texture.h"
-#include "raster/texture_walk.h"
 
 #if EL_WITH_MIXED
 
-/* What the pixels of a triangle are drawn with. */
-typedef struct brush {
-    unsigned kind;
-    uint16_t flat;
-    bool is_tested; /* texels show or do not */
-    bool writes_depth;
-    uint32_t alpha; /* 0..256 */
-    const el_fog *fog;
-    el_slopes slopes;
-#if EL_WITH_TEXTURE
-    el_sampler sampler;
-    el_texture_walk walk;
-#endif
-} brush;
-
-static void take_up(brush *b, const el_triangle *triangle)
+void el_mixed_brush_begin(el_mixed_brush *b, const el_triangle *triangle)
 {
     const el_material *const material = triangle->surface.material;
     const bool is_blended = el_is_blended(material);
@@ -53,7 +35,7 @@ typedef struct spot {
 } spot;
 
 /* Its colour, and how much of it shows, 0..256. */
-static inline uint32_t colour_at(const brush *b, const spot *at, uint16_t *colour)
+static inline uint32_t colour_at(const el_mixed_brush *b, const spot *at, uint16_t *colour)
 {
     uint32_t shown = 256;
     uint16_t base = b->flat;
@@ -79,7 +61,7 @@ static inline uint32_t colour_at(const brush *b, const spot *at, uint16_t *colou
 }
 
 /* Where it is nearer than `depth`, or there is no test. */
-static void draw_pixel(const brush *b, const spot *at, uint16_t *pixel, uint16_t *depth)
+static void draw_pixel(const el_mixed_brush *b, const spot *at, uint16_t *pixel, uint16_t *depth)
 {
     const uint32_t z = (b->kind & EL_FILL_DEPTH) != 0 ? (uint32_t)(at->values.z >> 32) : 0U;
     if ((b->kind & EL_FILL_DEPTH) != 0 && z >= *depth) {
@@ -100,7 +82,8 @@ static void draw_pixel(const brush *b, const spot *at, uint16_t *pixel, uint16_t
 }
 
 /* The span from at->x to x_end, in pieces along which texture coordinates are linear. */
-static void draw_span(brush *b, spot *at, uint32_t x_end, const el_perspective *planes, uint16_t *row, uint16_t *depth)
+static void draw_span(el_mixed_brush *b, spot *at, uint32_t x_end, const el_perspective *planes, uint16_t *row,
+                      uint16_t *depth)
 {
     const uint32_t begin = at->x;
     uint32_t u_step = 0;
@@ -140,8 +123,8 @@ static void draw_span(brush *b, spot *at, uint32_t x_end, const el_perspective *
 
 int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
 {
-    brush b;
-    take_up(&b, triangle);
+    el_mixed_brush b;
+    el_mixed_brush_begin(&b, triangle);
     const int32_t y = triangle->y;
     el_spans spans;
     const int32_t rows = el_spans_next(triangle, target, stats, &spans);
@@ -161,4 +144,34 @@ int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *
     el_slopes_keep(&b.slopes, triangle, kind);
     return rows;
 }
+
+#if EL_WITH_SAMPLES
+void el_mixed_draw_row(el_mixed_brush *b, const el_triangle *triangle, uint32_t x, uint32_t x_end, uint16_t *row,
+                       uint16_t *depth)
+{
+    spot first = {.x = x, .y = (uint32_t)triangle->y};
+    b->slopes = el_slopes_of(triangle, b->kind);
+    draw_span(b, &first, x_end, &triangle->perspective, row, depth);
+}
+
+uint32_t el_mixed_pixel(el_mixed_brush *b, const el_triangle *triangle, uint32_t x, uint32_t z, uint16_t *colour)
+{
+    spot at = {.x = x, .y = (uint32_t)triangle->y};
+    const el_slopes slopes = el_slopes_of(triangle, b->kind);
+    at.values = el_values_at(&slopes, (int32_t)x, b->kind);
+#if EL_WITH_TEXTURE
+    if ((b->kind & EL_FILL_TEXTURE) != 0) {
+        el_texture_walk_begin(&b->walk, &triangle->perspective, x, 1);
+        el_texture_walk_last(&b->walk);
+        at.u_q16 = (uint32_t)b->walk.u.q16;
+        at.v_q16 = (uint32_t)b->walk.v.q16;
+    }
+#endif
+    const uint32_t shown = colour_at(b, &at, colour);
+    if (shown != 0 && b->fog != NULL) {
+        *colour = el_rgb565_blend(*colour, b->fog->colour, el_fog_at(b->fog, z));
+    }
+    return shown;
+}
+#endif
 #endif

@@ -186,7 +186,7 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
 static int32_t reach_of(const el_list *list, const el_draw_state *draw)
 {
 #if EL_WITH_WIRES
-    if ((draw->finish & EL_FINISH_WIRES) != 0) {
+    if (el_draws_wires(draw)) {
         return EL_WIRE_REACH;
     }
 #endif
