@@ -21,7 +21,7 @@ static void find_rows(el_drawing *d)
 {
     const el_renderer *const renderer = d->renderer;
     d->culling.row_begin = renderer->pass_begin * renderer->config.band_lines;
-    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, renderer->config.height);
+    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, renderer->lines);
 }
 
 /* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
@@ -444,13 +444,17 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
                     .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                     .width = renderer->config.width,
                     .height = renderer->config.height,
-                    .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0},
+                    .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0,
+                    .field = renderer->list.field},
         .by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1,
     };
 #if EL_WITH_WIRES
     if (has_wires) {
         d.culling.reach = EL_WIRE_REACH;
     }
+#endif
+#if EL_CULLS_IN_VIEW
+    d.is_special = d.culling.reach != 0 || d.culling.field != EL_FIELD_NONE;
 #endif
     el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */

@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "frame/carrying.h"
 #include "frame/debug_hooks.h"
+#include "frame/painter_field.h"
 #include "frame/painter_sampled.h"
 #include "raster/gather.h"
 #include "raster/hidden.h"
@@ -403,6 +404,12 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, const el_
 #if EL_WITH_SAMPLES
     if (el_renderer_samples(renderer) > 1) {
         el_painter_draw_samples(painter, renderer, target, fresh, carried);
+        return;
+    }
+#endif
+#if EL_WITH_INTERLACED
+    if (target->field != EL_FIELD_NONE) {
+        el_painter_draw_field(painter, renderer, target, fresh, carried);
         return;
     }
 #endif

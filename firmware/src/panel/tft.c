@@ -254,6 +254,15 @@ static void sent(void *argument)
     el_band_release(loan->band, loan->slot);
 }
 
+/* The bus may still be sending the other band, so each has its own entry. */
+static struct el_tft_loan *take_loan(el_tft *panel, el_band *band, unsigned slot)
+{
+    struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
+    panel->next_loan ^= 1U;
+    *loan = (struct el_tft_loan){.band = band, .slot = slot};
+    return loan;
+}
+
 /* The lines of a band, counted from its first, that are sent whatever they show; empty where top is not above bottom. */
 static void find_due(const el_tft *panel, unsigned y, unsigned lines, unsigned *top, unsigned *bottom)
 {
@@ -296,11 +305,32 @@ static void set_window(el_tft *panel, unsigned y, const el_shown_part *part)
     panel->next_line = (uint16_t)(y + part->bottom);
 }
 
+/* Of an interlaced frame: a window for each line, of 6 bytes, since its columns are set once. What is on the glass is of two
+ * frames then, so the next one without gaps is sent whole. */
+static EL_SELDOM void send_lines(el_tft *panel, el_band *band, struct el_tft_loan *loan)
+{
+    const el_shown_part line = {.right = band->width, .bottom = 1};
+    if (panel->swap) {
+        swap_bytes(band->pixels, (size_t)band->lines * band->width);
+    }
+    for (unsigned i = 0; i < band->lines; i++) {
+        const bool is_last = i + 1U == band->lines;
+        set_window(panel, band->y + i * (1U + band->gap), &line);
+        send_pixels(panel, band->pixels + (size_t)i * band->width, band->width, is_last ? sent : nothing_to_release,
+                    loan);
+    }
+    panel->stale = true;
+}
+
 static void rows(void *context, el_band *band, unsigned slot)
 {
     el_tft *const panel = context;
     if (!panel->fits) {
         el_band_release(band, slot);
+        return;
+    }
+    if (band->gap != 0) {
+        send_lines(panel, band, take_loan(panel, band, slot));
         return;
     }
     const el_shown_part part = find_part(panel, band);
@@ -312,10 +342,7 @@ static void rows(void *context, el_band *band, unsigned slot)
             return;
         }
     }
-    /* The bus may still be sending the other band, so each has its own entry. */
-    struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
-    panel->next_loan ^= 1U;
-    *loan = (struct el_tft_loan){.band = band, .slot = slot};
+    struct el_tft_loan *const loan = take_loan(panel, band, slot);
     uint16_t *const pixels = EL_WITH_REUSE ? el_shown_pack(band->pixels, band->width, &part) : band->pixels;
     if (panel->swap) {
         swap_bytes(pixels, count);
@@ -365,5 +392,6 @@ el_sink el_tft_sink(el_tft *panel)
                      .rows = rows,
                      .unchanged = EL_WITH_REUSE ? unchanged : NULL,
                      .end = end,
-                     .wait = wait};
+                     .wait = wait,
+                     .takes_gaps = true};
 }

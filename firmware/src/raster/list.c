@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "raster/edge.h"
+#include "raster/field.h"
 #include "raster/triangle.h"
 #include "raster/wires.h"
 
@@ -19,6 +20,7 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
 #if EL_WITH_SAMPLES
     list->reach = 0;
 #endif
+    list->field = EL_FIELD_NONE;
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
@@ -133,13 +135,14 @@ void el_list_join(el_list *list, const el_list *more, uint32_t begin)
 }
 #endif
 
-static int32_t first_row(const el_record *record, el_record_kind kind, int32_t reach)
+static int32_t first_row(const el_list *list, const el_record *record, el_record_kind kind, int32_t reach)
 {
     if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
         return record->at.row;
     }
     const el_point *const points = record->at.points;
-    return el_first_centre(el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y)) - reach);
+    const int32_t top = el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y));
+    return el_field_row(list->field, el_first_centre(top - reach));
 }
 
 typedef struct run_records {
@@ -166,7 +169,7 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
         }
         at += el_list_record_bytes(from->kind);
         kept = 0;
-        const int32_t row = first_row((const el_record *)(const void *)old, from->kind, from->reach);
+        const int32_t row = first_row(list, (const el_record *)(const void *)old, from->kind, from->reach);
         if (row >= row_end) {
             continue;
         }

@@ -161,6 +161,7 @@ typedef struct el_list {
     bool is_shared;     /* triangles have shares */
     bool has_gaps;      /* el_list_keep_rows closes them */
     uint8_t reach;      /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+    uint8_t field;      /* el_field: rows are its lines */
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */

@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "base/rgb565.h"
+#include "raster/field.h"
 
 #if EL_WITH_WIRES
 
@@ -40,6 +41,8 @@ uint16_t el_wires_colour(const el_list *list, const el_record *record)
 /* What the pixels of a triangle's wires have in common. */
 typedef struct pen {
     const el_target *target;
+    int32_t top, bottom; /* the target's rows of the screen, ... */
+    unsigned gap_log2;   /* ... of which a field has every other one */
     uint16_t colour;
     bool depth;
     int32_t allowance; /* at most 2^16 */
@@ -52,18 +55,19 @@ static int32_t pixel_of(int32_t at)
     return (at - 1) >> EL_SUBPIXEL_BITS;
 }
 
-static bool has_row(const el_target *target, int32_t y)
+static bool is_between(const pen *p, int32_t y)
 {
-    return y >= target->y && y < target->y_end;
+    return y >= p->top && y < p->bottom;
 }
 
 static void draw_pixel(pen *p, int32_t x, int32_t y, int32_t z)
 {
     const el_target *const target = p->target;
-    if (x < 0 || x >= target->width || !has_row(target, y)) {
+    const int32_t gaps = (1 << p->gap_log2) - 1;
+    if (x < 0 || x >= target->width || !is_between(p, y) || ((y - p->top) & gaps) != 0) {
         return;
     }
-    const int32_t at = (y - target->y) * target->width + x;
+    const int32_t at = ((y - p->top) >> p->gap_log2) * target->width + x;
     p->pixels++;
     if (p->depth) {
         uint16_t *const depth = target->depth + at;
@@ -87,17 +91,17 @@ static end end_of(const el_corner *corner, bool steep)
 
 /* Of a flat edge, the columns of which any is in the target's rows, and two more on either side: fewer than [*first, *last)
  * where most of it lies above or below. */
-static void find_columns(const el_target *target, const end *from, const end *to, int32_t *first, int32_t *last)
+static void find_columns(const pen *p, const end *from, const end *to, int32_t *first, int32_t *last)
 {
     const int32_t rise = to->across - from->across;
-    if (rise == 0 || (has_row(target, pixel_of(from->across)) && has_row(target, pixel_of(to->across)))) {
+    if (rise == 0 || (is_between(p, pixel_of(from->across)) && is_between(p, pixel_of(to->across)))) {
         return;
     }
     /* Where it meets the target's upper and lower border, from its begin on: below 2^18 * 2^17 with 4 bits, 2^22 * 2^21
      * with 8; and since it is flat the quotient is in the order of the border's distance. */
     const int64_t length = to->along - from->along;
-    const int64_t upper = ((int64_t)target->y * EL_SUBPIXELS - from->across) * length / rise;
-    const int64_t lower = ((int64_t)target->y_end * EL_SUBPIXELS - from->across) * length / rise;
+    const int64_t upper = ((int64_t)p->top * EL_SUBPIXELS - from->across) * length / rise;
+    const int64_t lower = ((int64_t)p->bottom * EL_SUBPIXELS - from->across) * length / rise;
     const int64_t least = (from->along + (upper < lower ? upper : lower)) >> EL_SUBPIXEL_BITS;
     const int64_t most = (from->along + (upper < lower ? lower : upper)) >> EL_SUBPIXEL_BITS;
     *first = least - 2 > *first ? (int32_t)(least - 2 < *last ? least - 2 : *last) : *first;
@@ -116,14 +120,13 @@ static int64_t ratio_q32(int32_t value, uint32_t length)
 
 static void draw_run(pen *p, const end *from, const end *to, bool steep, int32_t first, int32_t last)
 {
-    const el_target *const target = p->target;
     if (steep) {
-        first = el_max_i32(first, target->y);
-        last = el_min_i32(last, target->y_end);
+        first = el_max_i32(first, p->top);
+        last = el_min_i32(last, p->bottom);
     } else {
         first = el_max_i32(first, 0);
-        last = el_min_i32(last, target->width);
-        find_columns(target, from, to, &first, &last);
+        last = el_min_i32(last, p->target->width);
+        find_columns(p, from, to, &first, &last);
     }
     if (first >= last) {
         return;
@@ -161,7 +164,7 @@ static void draw_edge(pen *p, const el_corner *a, const el_corner *b)
     const int32_t dy = a->y - b->y;
     const int32_t top = pixel_of(el_min_i32(a->y, b->y));
     const int32_t bottom = pixel_of(el_max_i32(a->y, b->y));
-    if (bottom < p->target->y || top >= p->target->y_end) {
+    if (bottom < p->top || top >= p->bottom) {
         return;
     }
     const bool steep = el_abs_u64(dy) > el_abs_u64(dx);
@@ -204,7 +207,12 @@ static int32_t allowance_of(const el_corner corners[3])
 void el_wires_draw(const el_corner corners[3], unsigned edges, const el_surface *surface, const el_target *target,
                    el_stats *stats)
 {
-    pen p = {.target = target, .colour = surface->colour, .depth = surface->depth};
+    pen p = {.target = target,
+             .top = el_screen_row(target->field, target->y),
+             .bottom = el_screen_row(target->field, target->y_end - 1) + 1,
+             .gap_log2 = target->field != EL_FIELD_NONE,
+             .colour = surface->colour,
+             .depth = surface->depth};
     if (p.depth) {
         p.allowance = allowance_of(corners);
     }
