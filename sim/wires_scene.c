@@ -53,7 +53,7 @@ static el_status draw(uint32_t frame, el_renderer *renderer)
     el_status status = el_draw(renderer, &floor_mesh, &pose, &floor_wires);
     for (unsigned i = 0; i < COUNT(wires) && status == EL_OK; i++) {
         pose = el_pose_identity();
-        pose.position_q16[0] = TENTHS_Q16(21) * ((int32_t)i - 1);
+        pose.position_q16[0] = TENTHS_Q16(18) * ((int32_t)i - 1);
         pose.scale_q16 = TENTHS_Q16(4);
         el_pose_turn(&pose, EL_AXIS_Y, frame * (0xFFFFFFFFU / TURN + 1U));
         if (i < COUNT(surfaces)) {
