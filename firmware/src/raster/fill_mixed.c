@@ -2,7 +2,9 @@
  * already. One loop for all, which asks at each pixel: what it does besides costs more than asking, and no other loop has to
  * know of it. The walk along texture coordinates is that of fill_texture.c; only what is fetched there is another. */
 #include "raster/fill_mixed.h"
+
 #include "base/fixed.h"
+#include "raster/field.h"
 #include "raster/texel.h"
 #include "raster/texture.h"
 
@@ -131,7 +133,7 @@ int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *
     for (int32_t i = 0; i < rows; i++) {
         const int32_t at = (y + i - target->y) * target->width;
         if (spans.x[i] < spans.x_end[i]) {
-            spot first = {.x = spans.x[i], .y = (uint32_t)(y + i)};
+            spot first = {.x = spans.x[i], .y = (uint32_t)el_screen_row(target->field, y + i)};
             draw_span(&b, &first, spans.x_end[i], &triangle->perspective, target->colour + at, target->depth + at);
         } else {
             el_count_empty(stats);

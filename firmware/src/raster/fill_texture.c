@@ -2,6 +2,7 @@
  * time, as in fill.c. */
 #include "base/fixed.h"
 #include "raster/depth_row.h"
+#include "raster/field.h"
 #include "raster/fill.h"
 #include "raster/texel_row.h"
 #include "raster/texture_walk.h"
@@ -136,7 +137,7 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
 {
     brush b;
     b.texels = el_texels_of(triangle->surface.texture);
-    b.y = (uint32_t)triangle->y;
+    b.y = (kind & EL_FILL_DITHER) != 0 ? (uint32_t)el_screen_row(target->field, triangle->y) : 0U;
     el_texture_walk_start(&b.walk, triangle);
     const el_perspective *const planes = &triangle->perspective;
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
@@ -157,7 +158,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
         el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
         el_perspective_next_row(&triangle->perspective);
         cursor.row += target->width;
-        b.y++;
+        if ((kind & EL_FILL_DITHER) != 0) {
+            b.y += el_field_step(target->field);
+        }
     }
     el_slopes_keep(&b.slopes, triangle, kind);
     return rows;

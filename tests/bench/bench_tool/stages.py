@@ -65,6 +65,8 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/tiny_triangle.c", "draw_rows", "pixels"),
     ("firmware/src/raster/tiny_triangle.c", "*", "set-up"),
     ("firmware/src/raster/triangle.c", "*", "set-up"),
+    ("firmware/src/raster/field.c", "*", "set-up"),
+    ("firmware/src/raster/wires.c", "*", "pixels"),
     ("firmware/src/raster/plane.c", "*", "set-up"),
     ("firmware/src/raster/rows.c", "*", "rows"),
     ("firmware/src/raster/spans.c", "*", "rows"),
