@@ -113,6 +113,7 @@ int bench_main(void)
     failed |= measure(el_scene_find("S1"), LARGE_ARENA, DEFAULT_UV, 0, SAMPLES_8);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, ONCE);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, PREPASS);
+    failed |= measure_own(mixed_scenes, mixed_scene_count, ONCE);
     failed |= measure_own(model_scenes, model_scene_count, ONCE);
     return failed;
 }
