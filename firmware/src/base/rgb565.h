@@ -28,8 +28,9 @@ static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t a
     const uint32_t over_rb = (over & 0xF800U) << 5 | (over & 0x1FU);
     const uint32_t under_g = under & 0x07E0U;
     const uint32_t over_g = over & 0x07E0U;
-    const uint32_t rb = (under_rb * (256U - alpha) + over_rb * alpha + 0x00800080U) >> 8;
-    const uint32_t g = (under_g * (256U - alpha) + over_g * alpha + 0x1000U) >> 8; /* half of a unit is 2^5 * 128 */
+    /* under * (256 - alpha) + over * alpha in one product, modulo 2^32: what is below 0 in between is made up for. */
+    const uint32_t rb = ((under_rb << 8) + (over_rb - under_rb) * alpha + 0x00800080U) >> 8;
+    const uint32_t g = ((under_g << 8) + (over_g - under_g) * alpha + 0x1000U) >> 8; /* half a unit is 2^5 * 128 */
     return (uint16_t)((rb >> 5 & 0xF800U) | (g & 0x07E0U) | (rb & 0x1FU));
 }
 

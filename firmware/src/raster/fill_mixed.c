@@ -1,6 +1,6 @@
 /* The fill whose pixels are mixed from several things: textures of any kind, light or vertex colours, fog, and what is there
- * already. One loop for all, which asks at each pixel: what it does besides costs more than asking, and no other loop has to
- * know of it. The walk along texture coordinates is that of fill_texture.c; only what is fetched there is another. */
+ * already. One loop for all, which asks at each pixel: in small code; where speed counts, fill_mixed_line.c draws the same.
+ * The walk along texture coordinates is that of fill_texture.c; only what is fetched there is another. */
 #include "base/fixed.h"
 #include "raster/fill.h"
 #include "raster/fog.h"
@@ -9,7 +9,7 @@
 #include "raster/texture.h"
 #include "raster/texture_walk.h"
 
-#if EL_WITH_MIXED
+#if EL_WITH_MIXED && EL_SMALL_CODE
 
 /* What the pixels of a triangle are drawn with. */
 typedef struct brush {

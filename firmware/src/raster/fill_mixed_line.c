@@ -1,0 +1,340 @@
+/* What fill_mixed.c draws, where speed counts: pieces of a span, which become what they are in a line, one property after
+ * another - texels, light, fog - and are then mixed with what is there. Each property is a loop of its own: a pixel pays for
+ * those it has, loops add up where properties would multiply, and each has the registers that it needs. What is opaque is
+ * made in its place on the screen. What the depth test hides is known before: it costs neither texel nor fog. */
+#include "base/fixed.h"
+#include "raster/depth_row.h"
+#include "raster/fill.h"
+#include "raster/fog.h"
+#include "raster/texel_line.h"
+#include "raster/texture.h"
+
+#if EL_WITH_MIXED && !EL_SMALL_CODE
+
+/* How pixels come to the screen. */
+typedef enum way {
+    OPAQUE,
+    BLENDED, /* with one alpha for all */
+    TESTED,  /* texels show or do not */
+    SHOWN    /* texels have an alpha each */
+} way;
+
+typedef struct brush {
+    unsigned kind;
+    way way;
+    bool takes_depth;  /* what passes the test is drawn */
+    bool writes_depth; /* what is drawn is nearer then */
+    uint16_t flat;
+    uint32_t alpha; /* 0..256 */
+    uint32_t y;
+    const el_fog *fog;
+    el_slopes slopes;
+    el_texel_line texels;
+    el_texture_walk walk;
+} brush;
+
+static void take_up(brush *b, const el_triangle *triangle)
+{
+    const el_material *const material = triangle->surface.material;
+    const bool is_blended = el_is_blended(material);
+    b->kind = triangle->kind;
+    b->flat = triangle->surface.colour;
+    b->alpha = material->alpha == 0 ? 256U : el_alpha_256(material->alpha);
+    b->fog = (b->kind & EL_FILL_DEPTH) != 0 ? material->fog : NULL;
+    b->y = (uint32_t)triangle->y;
+    b->slopes = el_slopes_of(triangle, b->kind);
+    bool shows = false;
+    if ((b->kind & EL_FILL_TEXTURE) != 0) {
+        el_texel_line_make(&b->texels, el_texture_at_level(material->texture, triangle->surface.level));
+        el_texture_walk_start(&b->walk, triangle);
+        shows = b->texels.shows;
+    }
+    b->way = shows ? (is_blended ? SHOWN : TESTED) : (b->alpha < 256 ? BLENDED : OPAQUE);
+    b->writes_depth = !is_blended || (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
+    b->takes_depth = b->writes_depth && !shows;
+}
+
+/* A stretch of pixels that pass the depth test, EL_MAX_PIECE at most, one at least. */
+typedef struct stretch {
+    uint32_t x, count;
+    uint16_t *pixels, *depth; /* on the screen */
+    uint16_t *colour;         /* where it is made */
+} stretch;
+
+/* --- What they are made of ----------------------------------------------------------------------------------------------- */
+
+static inline void fill(uint16_t *colour, uint16_t value, uint32_t count)
+{
+    const uint16_t *const end = colour + count;
+    do {
+        *colour++ = value;
+    } while (colour != end);
+}
+
+static EL_APART void colour_plain(const brush *b, const stretch *s)
+{
+    el_values v = el_values_at(&b->slopes, (int32_t)s->x, EL_FILL_COLOURS);
+    uint16_t *colour = s->colour;
+    const uint16_t *const end = colour + s->count;
+    do {
+        *colour = (uint16_t)el_coloured(&v);
+        el_values_add(&v, &b->slopes.per_column, EL_FILL_COLOURS);
+    } while (++colour != end);
+}
+
+static EL_APART void light_plain(const brush *b, const stretch *s)
+{
+    el_light_row(&b->slopes, b->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS);
+}
+
+static EL_APART void light_dithered(const brush *b, const stretch *s)
+{
+    el_light_row(&b->slopes, b->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS | EL_FILL_DITHER);
+}
+
+/* Leading zeros of x >= 1, counted from `near` on, which is what they were at the pixel before. */
+static inline uint32_t leading_zeros(uint32_t x, uint32_t near)
+{
+#if defined(EL_ZEROS_BY_TABLE)
+    while (x << near >> near != x) {
+        near--;
+    }
+    while (x << near < 0x80000000U) {
+        near++;
+    }
+    return near;
+#else
+    (void)near;
+    return el_leading_zeros(x);
+#endif
+}
+
+static EL_APART void add_fog(const brush *b, const stretch *s)
+{
+    const el_fog *const fog = b->fog;
+    const uint16_t fog_colour = fog->colour;
+    const uint64_t z_step = b->slopes.per_column.z;
+    uint64_t z = el_values_at(&b->slopes, (int32_t)s->x, EL_FILL_DEPTH).z;
+    uint16_t *colour = s->colour;
+    const uint16_t *const end = colour + s->count;
+    uint32_t leading = 0;
+    do {
+        const uint32_t nearness = fog->scale_q12 - ((uint32_t)(z >> 32) << 12);
+        leading = leading_zeros(nearness, leading);
+        const uint32_t alpha = el_fog_at_place(fog, el_fog_place_of(nearness, leading));
+        if (alpha != 0) {
+            *colour = el_rgb565_blend(*colour, fog_colour, alpha);
+        }
+        z += z_step;
+    } while (++colour != end);
+}
+
+/* --- How they come to the screen ----------------------------------------------------------------------------------------- */
+
+static EL_APART void blend(const brush *b, const stretch *s)
+{
+    const uint32_t alpha = b->alpha;
+    const uint16_t *colour = s->colour;
+    uint16_t *pixel = s->pixels;
+    const uint16_t *const end = pixel + s->count;
+    do {
+        *pixel = el_rgb565_blend(*pixel, *colour++, alpha);
+    } while (++pixel != end);
+}
+
+/* The same of one colour: its share is a constant. */
+static EL_APART void blend_flat(const brush *b, const stretch *s)
+{
+    const uint32_t rest = 256U - b->alpha;
+    const uint32_t rb_share = ((b->flat & 0xF800U) << 5 | (b->flat & 0x1FU)) * b->alpha + 0x00800080U;
+    const uint32_t g_share = (b->flat & 0x07E0U) * b->alpha + 0x1000U;
+    uint16_t *pixel = s->pixels;
+    const uint16_t *const end = pixel + s->count;
+    do {
+        const uint32_t under = *pixel;
+        const uint32_t rb = ((under & 0xF800U) << 5 | (under & 0x1FU)) * rest + rb_share;
+        const uint32_t g = (under & 0x07E0U) * rest + g_share;
+        *pixel = (uint16_t)((rb >> 13 & 0xF800U) | (g >> 8 & 0x07E0U) | (rb >> 8 & 0x1FU));
+    } while (++pixel != end);
+}
+
+static EL_SPECIALISED void show(const brush *b, const stretch *s, const uint16_t *shown, bool is_tested, bool writes)
+{
+    const uint64_t z_step = b->slopes.per_column.z;
+    uint64_t z = writes ? el_values_at(&b->slopes, (int32_t)s->x, EL_FILL_DEPTH).z : 0U;
+    const uint16_t *colour = s->colour;
+    uint16_t *pixel = s->pixels;
+    uint16_t *depth = s->depth;
+    const uint16_t *const end = pixel + s->count;
+    do {
+        const uint32_t part = is_tested ? *shown++ : (*shown++ * b->alpha + 128U) >> 8;
+        if (part >= (is_tested ? 128U : 1U)) {
+            *pixel = is_tested ? *colour : el_rgb565_blend(*pixel, *colour, part);
+            if (writes) {
+                *depth = (uint16_t)(z >> 32);
+            }
+        }
+        colour++;
+        if (writes) {
+            depth++;
+            z += z_step;
+        }
+    } while (++pixel != end);
+}
+
+static EL_APART void test(const brush *b, const stretch *s, const uint16_t *shown)
+{
+    show(b, s, shown, true, false);
+}
+
+static EL_APART void test_and_write(const brush *b, const stretch *s, const uint16_t *shown)
+{
+    show(b, s, shown, true, true);
+}
+
+static EL_APART void blend_shown(const brush *b, const stretch *s, const uint16_t *shown)
+{
+    show(b, s, shown, false, false);
+}
+
+static EL_APART void blend_and_write(const brush *b, const stretch *s, const uint16_t *shown)
+{
+    show(b, s, shown, false, true);
+}
+
+/* --- Stretches ------------------------------------------------------------------------------------------------------------ */
+
+static void make(const brush *b, const stretch *s, uint16_t *shown)
+{
+    const unsigned look = b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER);
+    if ((look & EL_FILL_TEXTURE) != 0) {
+        el_texel_line_draw(&b->texels,
+                           &(el_texel_row){.u_q16 = (uint32_t)b->walk.u.q16,
+                                           .v_q16 = (uint32_t)b->walk.v.q16,
+                                           .u_step_q16 = (uint32_t)b->walk.u.step_q16,
+                                           .v_step_q16 = (uint32_t)b->walk.v.step_q16,
+                                           .colour = s->colour,
+                                           .count = s->count},
+                           shown);
+    }
+    if ((look & EL_FILL_TEXTURE) == 0 && look != EL_FILL_COLOURS) {
+        fill(s->colour, look == 0 ? b->flat : 0xFFFF, s->count);
+    }
+    if ((look & EL_FILL_DITHER) != 0) {
+        light_dithered(b, s);
+    } else if (look == EL_FILL_COLOURS) {
+        colour_plain(b, s);
+    } else if ((look & EL_FILL_COLOURS) != 0) {
+        light_plain(b, s);
+    }
+    if (b->fog != NULL) {
+        add_fog(b, s);
+    }
+}
+
+static void draw_stretch(const brush *b, uint32_t x, uint32_t count, uint16_t *row, uint16_t *depth)
+{
+    uint16_t colour[EL_MAX_PIECE];
+    uint16_t shown[EL_MAX_PIECE];
+    const bool writes = b->writes_depth && (b->kind & EL_FILL_DEPTH) != 0;
+    const stretch s = {
+        .x = x, .count = count, .pixels = row + x, .depth = depth + x, .colour = b->way == OPAQUE ? row + x : colour};
+    if (b->way == BLENDED && b->fog == NULL && (b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) == 0) {
+        blend_flat(b, &s);
+        return;
+    }
+    make(b, &s, shown);
+    if (b->way == BLENDED) {
+        blend(b, &s);
+    } else if (b->way == TESTED) {
+        writes ? test_and_write(b, &s, shown) : test(b, &s, shown);
+    } else if (b->way == SHOWN) {
+        writes ? blend_and_write(b, &s, shown) : blend_shown(b, &s, shown);
+    }
+}
+
+/* --- Spans --------------------------------------------------------------------------------------------------------------- */
+
+/* So many pixels from the next one on pass the test. */
+static inline uint32_t see(const brush *b, el_depth_row *depth)
+{
+    return b->takes_depth ? el_depth_row_take(depth) : el_depth_row_pass(depth);
+}
+
+/* Along which texture coordinates are linear: from x on, in a span that begins `at` pixels before. */
+static inline uint32_t next_piece(brush *b, uint32_t x, uint32_t at, uint32_t x_end)
+{
+    if ((b->kind & EL_FILL_TEXTURE) != 0) {
+        const uint32_t last = x_end - 1U;
+        if (x < last) {
+            return el_texture_walk_piece(&b->walk, at, last - x);
+        }
+        el_texture_walk_last(&b->walk);
+        return 1;
+    }
+    return x_end - x < EL_MAX_PIECE ? x_end - x : EL_MAX_PIECE;
+}
+
+static void draw_span(brush *b, const el_perspective *planes, uint32_t x, uint32_t x_end, uint16_t *row,
+                      uint16_t *depth_row)
+{
+    const uint32_t begin = x;
+    const bool is_tested = (b->kind & EL_FILL_DEPTH) != 0;
+    const bool has_texture = (b->kind & EL_FILL_TEXTURE) != 0;
+    el_depth_row depth;
+    /* Pixels that are seen; none is left of them. */
+    uint32_t run = x;
+    uint32_t run_end = x_end;
+    if (is_tested) {
+        el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
+                           b->slopes.per_column.z);
+        run += el_depth_row_skip(&depth);
+        run_end = run + see(b, &depth);
+    }
+    if (has_texture && run < x_end) {
+        el_texture_walk_begin(&b->walk, planes, begin, x_end - begin);
+    }
+    while (run < x_end) {
+        const uint32_t piece_end = x + next_piece(b, x, x - begin, x_end);
+        uint32_t begun = x;
+        while (run < piece_end) {
+            const uint32_t end = run_end < piece_end ? run_end : piece_end;
+            if (has_texture) {
+                el_texture_walk_skip(&b->walk, run - begun);
+            }
+            draw_stretch(b, run, end - run, row, depth_row);
+            begun = run;
+            run = end;
+            if (run == run_end && run < x_end) {
+                run += el_depth_row_skip(&depth);
+                run_end = run + see(b, &depth);
+            }
+        }
+        x = piece_end;
+    }
+}
+
+int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+{
+    brush b;
+    take_up(&b, triangle);
+    el_spans spans;
+    int32_t at = (triangle->y - target->y) * target->width;
+    const int32_t rows = el_spans_next(triangle, target, stats, &spans);
+    for (int32_t i = 0; i < rows; i++) {
+        if (spans.x[i] < spans.x_end[i]) {
+            draw_span(&b, &triangle->perspective, spans.x[i], spans.x_end[i], target->colour + at, target->depth + at);
+        } else {
+            el_count_empty(stats);
+        }
+        el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
+        if ((kind & EL_FILL_TEXTURE) != 0) {
+            el_perspective_next_row(&triangle->perspective);
+        }
+        at += target->width;
+        b.y++;
+    }
+    el_slopes_keep(&b.slopes, triangle, kind);
+    return rows;
+}
+#endif

@@ -1,0 +1,37 @@
+/* Texels of any texture along a piece of a row, in a line of their own: each property of a texture is a loop over the line,
+ * so that loops add up where properties would multiply. Which loops a texture needs is asked once per triangle. The texels
+ * are those of raster/sampler.h, which finds one at a time. Private to this layer. */
+#ifndef EL_RASTER_TEXEL_LINE_H
+#define EL_RASTER_TEXEL_LINE_H
+
+#include "raster/sampler.h"
+#include "raster/texel_row.h"
+#include "raster/texture_walk.h"
+
+#if EL_WITH_MIXED && !EL_SMALL_CODE
+
+/* How they are found. */
+typedef enum el_texel_way {
+    EL_TEXELS_PLAIN,   /* RGB565 that repeats with powers of two, all of which shows: as by fill_texture.c */
+    EL_TEXELS_NEAREST, /* any other of which a texel is found by y * width + x */
+    EL_TEXELS_SMOOTH,  /* of plain ones, the mean of four */
+    EL_TEXELS_ANY      /* what is left: one at a time */
+} el_texel_way;
+
+typedef struct el_texel_line {
+    el_texel_way way;
+    bool repeats; /* with powers of two, in both directions: `texels` are those */
+    bool shows;   /* not all of it shows */
+    el_texels texels;
+    el_sampler sampler;
+} el_texel_line;
+
+/* Pre: the texture is good (texture.h). */
+void el_texel_line_make(el_texel_line *line, const el_texture *texture);
+
+/* Draws the row's texels, EL_MAX_PIECE at most. Where line->shows, shown[] becomes how much of each shows, 0..256; of 0 the
+ * colour is any. */
+void el_texel_line_draw(const el_texel_line *line, const el_texel_row *row, uint16_t *shown);
+
+#endif
+#endif
