@@ -34,6 +34,18 @@ static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t a
     return (uint16_t)((rb >> 5 & 0xF800U) | (g & 0x07E0U) | (rb & 0x1FU));
 }
 
+/* The same for two pixels that lie side by side in a word. Their channels are 16 bits apart, sums below 63 * 256 + 128. */
+static inline uint32_t el_rgb565_blend_pair(uint32_t under, uint32_t over, uint32_t alpha)
+{
+    const uint32_t under_r = under >> 11 & 0x001F001FU;
+    const uint32_t under_g = under >> 5 & 0x003F003FU;
+    const uint32_t under_b = under & 0x001F001FU;
+    const uint32_t r = (under_r << 8) + ((over >> 11 & 0x001F001FU) - under_r) * alpha + 0x00800080U;
+    const uint32_t g = (under_g << 8) + ((over >> 5 & 0x003F003FU) - under_g) * alpha + 0x00800080U;
+    const uint32_t b = (under_b << 8) + ((over & 0x001F001FU) - under_b) * alpha + 0x00800080U;
+    return (r >> 8 & 0x001F001FU) << 11 | (g >> 8 & 0x003F003FU) << 5 | (b >> 8 & 0x001F001FU);
+}
+
 #ifdef __cplusplus
 }
 #endif

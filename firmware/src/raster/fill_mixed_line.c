@@ -2,6 +2,7 @@
  * another - texels, light, fog - and are then mixed with what is there. Each property is a loop of its own: a pixel pays for
  * those it has, loops add up where properties would multiply, and each has the registers that it needs. What is opaque is
  * made in its place on the screen. What the depth test hides is known before: it costs neither texel nor fog. */
+#include "base/fill.h"
 #include "base/fixed.h"
 #include "raster/depth_row.h"
 #include "raster/fill.h"
@@ -54,7 +55,10 @@ static void take_up(brush *b, const el_triangle *triangle)
     b->takes_depth = b->writes_depth && !shows;
 }
 
-/* A stretch of pixels that pass the depth test, EL_MAX_PIECE at most, one at least. */
+/* Pieces that are gathered until they are as long as one can be are less than two. */
+enum { LINE = 2 * EL_MAX_PIECE };
+
+/* A stretch of pixels that pass the depth test, 1 to LINE. */
 typedef struct stretch {
     uint32_t x, count;
     uint16_t *pixels, *depth; /* on the screen */
@@ -131,31 +135,54 @@ static EL_APART void add_fog(const brush *b, const stretch *s)
 
 /* --- How they come to the screen ----------------------------------------------------------------------------------------- */
 
+/* Two pixels at a time, from a word's begin on; the line of colours has its words where the screen has. */
 static EL_APART void blend(const brush *b, const stretch *s)
 {
     const uint32_t alpha = b->alpha;
     const uint16_t *colour = s->colour;
     uint16_t *pixel = s->pixels;
-    const uint16_t *const end = pixel + s->count;
-    do {
-        *pixel = el_rgb565_blend(*pixel, *colour++, alpha);
-    } while (++pixel != end);
+    uint32_t count = s->count;
+    if (((uintptr_t)pixel & 2U) != 0) {
+        *pixel = el_rgb565_blend(*pixel, *colour, alpha);
+        pixel++;
+        colour++;
+        count--;
+    }
+    el_word *word = (el_word *)(void *)pixel;
+    const el_word *colours = (const el_word *)(const void *)colour;
+    for (const el_word *const end = word + count / 2U; word != end; word++) {
+        *word = el_rgb565_blend_pair(*word, *colours++, alpha);
+    }
+    if ((count & 1U) != 0) {
+        pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], colour[count - 1U], alpha);
+    }
 }
 
 /* The same of one colour: its share is a constant. */
 static EL_APART void blend_flat(const brush *b, const stretch *s)
 {
     const uint32_t rest = 256U - b->alpha;
-    const uint32_t rb_share = ((b->flat & 0xF800U) << 5 | (b->flat & 0x1FU)) * b->alpha + 0x00800080U;
-    const uint32_t g_share = (b->flat & 0x07E0U) * b->alpha + 0x1000U;
+    const uint32_t r_share = (b->flat >> 11) * b->alpha * 0x10001U + 0x00800080U;
+    const uint32_t g_share = (b->flat >> 5 & 63U) * b->alpha * 0x10001U + 0x00800080U;
+    const uint32_t b_share = (b->flat & 31U) * b->alpha * 0x10001U + 0x00800080U;
     uint16_t *pixel = s->pixels;
-    const uint16_t *const end = pixel + s->count;
-    do {
-        const uint32_t under = *pixel;
-        const uint32_t rb = ((under & 0xF800U) << 5 | (under & 0x1FU)) * rest + rb_share;
-        const uint32_t g = (under & 0x07E0U) * rest + g_share;
-        *pixel = (uint16_t)((rb >> 13 & 0xF800U) | (g >> 8 & 0x07E0U) | (rb >> 8 & 0x1FU));
-    } while (++pixel != end);
+    uint32_t count = s->count;
+    if (((uintptr_t)pixel & 2U) != 0) {
+        *pixel = el_rgb565_blend(*pixel, b->flat, b->alpha);
+        pixel++;
+        count--;
+    }
+    el_word *word = (el_word *)(void *)pixel;
+    for (const el_word *const end = word + count / 2U; word != end; word++) {
+        const uint32_t under = *word;
+        const uint32_t red = (under >> 11 & 0x001F001FU) * rest + r_share;
+        const uint32_t green = (under >> 5 & 0x003F003FU) * rest + g_share;
+        const uint32_t blue = (under & 0x001F001FU) * rest + b_share;
+        *word = (red >> 8 & 0x001F001FU) << 11 | (green >> 8 & 0x003F003FU) << 5 | (blue >> 8 & 0x001F001FU);
+    }
+    if ((count & 1U) != 0) {
+        pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], b->flat, b->alpha);
+    }
 }
 
 static EL_SPECIALISED void show(const brush *b, const stretch *s, const uint16_t *shown, bool is_tested, bool writes)
@@ -204,19 +231,10 @@ static EL_APART void blend_and_write(const brush *b, const stretch *s, const uin
 
 /* --- Stretches ------------------------------------------------------------------------------------------------------------ */
 
-static void make(const brush *b, const stretch *s, uint16_t *shown)
+/* Its colours but for texels, which are there already. */
+static void finish_colours(const brush *b, const stretch *s)
 {
     const unsigned look = b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER);
-    if ((look & EL_FILL_TEXTURE) != 0) {
-        el_texel_line_draw(&b->texels,
-                           &(el_texel_row){.u_q16 = (uint32_t)b->walk.u.q16,
-                                           .v_q16 = (uint32_t)b->walk.v.q16,
-                                           .u_step_q16 = (uint32_t)b->walk.u.step_q16,
-                                           .v_step_q16 = (uint32_t)b->walk.v.step_q16,
-                                           .colour = s->colour,
-                                           .count = s->count},
-                           shown);
-    }
     if ((look & EL_FILL_TEXTURE) == 0 && look != EL_FILL_COLOURS) {
         fill(s->colour, look == 0 ? b->flat : 0xFFFF, s->count);
     }
@@ -232,82 +250,127 @@ static void make(const brush *b, const stretch *s, uint16_t *shown)
     }
 }
 
-static void draw_stretch(const brush *b, uint32_t x, uint32_t count, uint16_t *row, uint16_t *depth)
+static void draw_stretch(const brush *b, const stretch *s, const uint16_t *shown)
 {
-    uint16_t colour[EL_MAX_PIECE];
-    uint16_t shown[EL_MAX_PIECE];
     const bool writes = b->writes_depth && (b->kind & EL_FILL_DEPTH) != 0;
-    const stretch s = {
-        .x = x, .count = count, .pixels = row + x, .depth = depth + x, .colour = b->way == OPAQUE ? row + x : colour};
     if (b->way == BLENDED && b->fog == NULL && (b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) == 0) {
-        blend_flat(b, &s);
+        blend_flat(b, s);
         return;
     }
-    make(b, &s, shown);
+    finish_colours(b, s);
     if (b->way == BLENDED) {
-        blend(b, &s);
+        blend(b, s);
     } else if (b->way == TESTED) {
-        writes ? test_and_write(b, &s, shown) : test(b, &s, shown);
+        writes ? test_and_write(b, s, shown) : test(b, s, shown);
     } else if (b->way == SHOWN) {
-        writes ? blend_and_write(b, &s, shown) : blend_shown(b, &s, shown);
+        writes ? blend_and_write(b, s, shown) : blend_shown(b, s, shown);
     }
 }
 
 /* --- Spans --------------------------------------------------------------------------------------------------------------- */
 
-/* So many pixels from the next one on pass the test. */
-static inline uint32_t see(const brush *b, el_depth_row *depth)
-{
-    return b->takes_depth ? el_depth_row_take(depth) : el_depth_row_pass(depth);
-}
-
-/* Along which texture coordinates are linear: from x on, in a span that begins `at` pixels before. */
-static inline uint32_t next_piece(brush *b, uint32_t x, uint32_t at, uint32_t x_end)
-{
-    if ((b->kind & EL_FILL_TEXTURE) != 0) {
-        const uint32_t last = x_end - 1U;
-        if (x < last) {
-            return el_texture_walk_piece(&b->walk, at, last - x);
-        }
-        el_texture_walk_last(&b->walk);
-        return 1;
-    }
-    return x_end - x < EL_MAX_PIECE ? x_end - x : EL_MAX_PIECE;
-}
-
-static void draw_span(brush *b, const el_perspective *planes, uint32_t x, uint32_t x_end, uint16_t *row,
-                      uint16_t *depth_row)
-{
-    const uint32_t begin = x;
-    const bool is_tested = (b->kind & EL_FILL_DEPTH) != 0;
-    const bool has_texture = (b->kind & EL_FILL_TEXTURE) != 0;
+/* What of a span is seen, run by run; `end` of one that begins at its end is that, too. */
+typedef struct runs {
     el_depth_row depth;
-    /* Pixels that are seen; none is left of them. */
-    uint32_t run = x;
-    uint32_t run_end = x_end;
-    if (is_tested) {
-        el_depth_row_begin(&depth, depth_row + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
+    uint32_t begin, end;
+} runs;
+
+static inline void go_on(runs *r, const brush *b)
+{
+    r->begin = r->end + el_depth_row_skip(&r->depth);
+    r->end = r->begin + (b->takes_depth ? el_depth_row_take(&r->depth) : el_depth_row_pass(&r->depth));
+}
+
+/* Where there is no test, all is. */
+static inline void begin_runs(runs *r, const brush *b, uint32_t x, uint32_t x_end, uint16_t *depth)
+{
+    r->begin = x;
+    r->end = x_end;
+    if ((b->kind & EL_FILL_DEPTH) != 0) {
+        el_depth_row_begin(&r->depth, depth + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                            b->slopes.per_column.z);
-        run += el_depth_row_skip(&depth);
-        run_end = run + see(b, &depth);
+        r->end = x;
+        go_on(r, b);
     }
-    if (has_texture && run < x_end) {
-        el_texture_walk_begin(&b->walk, planes, begin, x_end - begin);
+}
+
+/* Where a stretch's colours are made: in their place, or in a line. */
+static inline uint16_t *place_of(const brush *b, uint16_t *pixels, uint16_t *line)
+{
+    return b->way == OPAQUE ? pixels : line + ((uintptr_t)pixels >> 1 & 1U);
+}
+
+static EL_APART void draw_plain(const brush *b, uint32_t x, uint32_t x_end, uint16_t *row, uint16_t *depth)
+{
+    _Alignas(4) uint16_t line[LINE + 1];
+    runs r;
+    begin_runs(&r, b, x, x_end, depth);
+    while (r.begin < x_end) {
+        const uint32_t count = r.end - r.begin < LINE ? r.end - r.begin : LINE;
+        uint16_t *const pixels = row + r.begin;
+        const stretch s = {r.begin, count, pixels, NULL, place_of(b, pixels, line)};
+        draw_stretch(b, &s, NULL);
+        r.begin += count;
+        if (r.begin == r.end && r.begin < x_end) {
+            go_on(&r, b);
+        }
     }
-    while (run < x_end) {
-        const uint32_t piece_end = x + next_piece(b, x, x - begin, x_end);
-        uint32_t begun = x;
-        while (run < piece_end) {
-            const uint32_t end = run_end < piece_end ? run_end : piece_end;
-            if (has_texture) {
-                el_texture_walk_skip(&b->walk, run - begun);
-            }
-            draw_stretch(b, run, end - run, row, depth_row);
-            begun = run;
-            run = end;
-            if (run == run_end && run < x_end) {
-                run += el_depth_row_skip(&depth);
-                run_end = run + see(b, &depth);
+}
+
+/* Makes the piece from x on, along which texture coordinates are linear, in a span that begins `at` pixels before. */
+static inline uint32_t make_piece(el_texture_walk *walk, uint32_t x, uint32_t at, uint32_t x_end)
+{
+    const uint32_t last = x_end - 1U;
+    if (x < last) {
+        return el_texture_walk_piece(walk, at, last - x);
+    }
+    el_texture_walk_last(walk);
+    return 1;
+}
+
+static inline void draw_texels(const brush *b, uint16_t *colour, uint16_t *shown, uint32_t count)
+{
+    const el_texel_row row = {.u_q16 = (uint32_t)b->walk.u.q16,
+                              .v_q16 = (uint32_t)b->walk.v.q16,
+                              .u_step_q16 = (uint32_t)b->walk.u.step_q16,
+                              .v_step_q16 = (uint32_t)b->walk.v.step_q16,
+                              .colour = colour,
+                              .count = count};
+    el_texel_line_draw(&b->texels, &row, shown);
+}
+
+/* Texels come piece by piece; what is seen of some pieces is a stretch. */
+static EL_APART void draw_textured(brush *b, const el_perspective *planes, uint32_t x, uint32_t x_end, uint16_t *row,
+                                   uint16_t *depth)
+{
+    _Alignas(4) uint16_t line[LINE + 1];
+    uint16_t shown[LINE];
+    const uint32_t begin = x;
+    runs r;
+    begin_runs(&r, b, x, x_end, depth);
+    if (r.begin == x_end) {
+        return;
+    }
+    el_texture_walk_begin(&b->walk, planes, x, x_end - x);
+    uint32_t drawn = r.begin; /* up to there */
+    while (r.begin < x_end) {
+        const uint32_t piece_end = x + make_piece(&b->walk, x, x - begin, x_end);
+        while (drawn < piece_end) {
+            const uint32_t end = r.end < piece_end ? r.end : piece_end;
+            uint16_t *const pixels = row + r.begin;
+            uint16_t *const colour = place_of(b, pixels, line);
+            el_texture_walk_skip(&b->walk, drawn - x);
+            draw_texels(b, colour + (drawn - r.begin), shown + (drawn - r.begin), end - drawn);
+            x = drawn;
+            drawn = end;
+            if (drawn == r.end || drawn - r.begin >= EL_MAX_PIECE) {
+                const stretch s = {r.begin, drawn - r.begin, pixels, depth + r.begin, colour};
+                draw_stretch(b, &s, shown);
+                r.begin = drawn;
+                if (drawn == r.end && drawn < x_end) {
+                    go_on(&r, b);
+                    drawn = r.begin;
+                }
             }
         }
         x = piece_end;
@@ -323,7 +386,13 @@ int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *
     const int32_t rows = el_spans_next(triangle, target, stats, &spans);
     for (int32_t i = 0; i < rows; i++) {
         if (spans.x[i] < spans.x_end[i]) {
-            draw_span(&b, &triangle->perspective, spans.x[i], spans.x_end[i], target->colour + at, target->depth + at);
+            uint16_t *const row = target->colour + at;
+            uint16_t *const depth = target->depth + at;
+            if ((kind & EL_FILL_TEXTURE) != 0) {
+                draw_textured(&b, &triangle->perspective, spans.x[i], spans.x_end[i], row, depth);
+            } else {
+                draw_plain(&b, spans.x[i], spans.x_end[i], row, depth);
+            }
         } else {
             el_count_empty(stats);
         }

@@ -16,122 +16,104 @@ static bool has_indices(const el_image *image)
     return image->width % per_byte == 0;
 }
 
-void el_texel_line_make(el_texel_line *line, const el_texture *texture)
-{
-    el_sampler *const sampler = &line->sampler;
-    const el_image *const image = &sampler->image;
-    el_sampler_make(sampler, texture);
-    const uint32_t width = image->width;
-    const uint32_t height = image->height;
-    line->shows = image->has_key || image->format == EL_IMAGE_MASK || image->alpha != NULL;
-    line->repeats = sampler->u.period == width && sampler->v.period == height && is_power(width) && is_power(height);
-    if (line->repeats) {
-        line->texels = el_texels_of(&(el_texture){.texels = image->pixels,
-                                                  .width_log2 = (uint8_t)(el_bit_length_u32(width) - 1),
-                                                  .height_log2 = (uint8_t)(el_bit_length_u32(height) - 1)});
-    }
-    const bool is_plain = line->repeats && image->format == EL_IMAGE_RGB565 && !line->shows;
-    if (is_plain) {
-        line->way = sampler->smooth ? EL_TEXELS_SMOOTH : EL_TEXELS_PLAIN;
-    } else {
-        line->way = !sampler->smooth && has_indices(image) ? EL_TEXELS_NEAREST : EL_TEXELS_ANY;
-    }
-}
-
 /* --- Where they are: y * width + x, below 2^20 --------------------------------------------------------------------------- */
 
-static EL_APART void find_repeated(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
+/* In a period that is a power of two; where every other one is turned around, the second half runs back. */
+static inline uint32_t place_in_power(const el_sampler_axis *axis, uint32_t at)
 {
-    const el_texel_source from = line->texels.source;
+    const uint32_t place = at & (axis->period - 1U);
+    return place < axis->size ? place : axis->period - 1U - place;
+}
+
+static inline uint32_t place_clamped(const el_sampler_axis *axis, int32_t at)
+{
+    return (uint32_t)el_max_i32(el_min_i32(at, (int32_t)axis->size - 1), 0);
+}
+
+/* How places are found, for both axes. */
+typedef enum places { IN_POWERS, CLAMPED, ANY } places;
+
+static EL_SPECIALISED void find_places(uint32_t *index, const el_texel_line *line, const el_texel_row *row, places how)
+{
+    const el_sampler_axis u = line->sampler.u;
+    const el_sampler_axis v = line->sampler.v;
+    const uint32_t width = u.size;
     const uint32_t *const end = index + row->count;
     uint32_t u_q16 = row->u_q16;
     uint32_t v_q16 = row->v_q16;
     do {
-        *index++ = ((v_q16 >> from.v_down) & from.v_mask) | ((u_q16 >> 16) & from.u_mask);
+        if (how == IN_POWERS) {
+            *index++ = place_in_power(&v, v_q16 >> 16) * width + place_in_power(&u, u_q16 >> 16);
+        } else if (how == CLAMPED) {
+            *index++ = place_clamped(&v, (int32_t)v_q16 >> 16) * width + place_clamped(&u, (int32_t)u_q16 >> 16);
+        } else {
+            *index++ = el_sampler_place(&v, (int32_t)v_q16 >> 16) * width + el_sampler_place(&u, (int32_t)u_q16 >> 16);
+        }
         u_q16 += row->u_step_q16;
         v_q16 += row->v_step_q16;
     } while (index != end);
 }
 
-/* Adds one axis' part: its place times `stride`. */
-typedef struct axis_steps {
-    uint32_t q16, step_q16, stride;
-} axis_steps;
-
-static EL_APART void add_clamped(uint32_t *index, const uint32_t *end, const el_sampler_axis *axis,
-                                 const axis_steps *steps)
+static EL_APART void find_in_powers(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
 {
-    const int32_t last = (int32_t)axis->size - 1;
-    uint32_t q16 = steps->q16;
-    do {
-        *index++ += (uint32_t)el_max_i32(el_min_i32((int32_t)q16 >> 16, last), 0) * steps->stride;
-        q16 += steps->step_q16;
-    } while (index != end);
+    find_places(index, line, row, IN_POWERS);
 }
 
-/* Periods that are powers of two. */
-static EL_APART void add_masked(uint32_t *index, const uint32_t *end, const el_sampler_axis *axis,
-                                const axis_steps *steps)
+static EL_APART void find_clamped(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
 {
-    const uint32_t last = axis->period - 1U;
-    const uint32_t size = axis->size;
-    uint32_t q16 = steps->q16;
-    do {
-        const uint32_t place = q16 >> 16 & last;
-        *index++ += (place < size ? place : last - place) * steps->stride;
-        q16 += steps->step_q16;
-    } while (index != end);
+    find_places(index, line, row, CLAMPED);
 }
 
-static EL_APART void add_any(uint32_t *index, const uint32_t *end, const el_sampler_axis *axis, const axis_steps *steps)
+static EL_APART void find_any(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
 {
-    uint32_t q16 = steps->q16;
-    do {
-        *index++ += el_sampler_place(axis, (int32_t)q16 >> 16) * steps->stride;
-        q16 += steps->step_q16;
-    } while (index != end);
-}
-
-static void add_axis(uint32_t *index, const uint32_t *end, const el_sampler_axis *axis, const axis_steps *steps)
-{
-    if (axis->period == 0) {
-        add_clamped(index, end, axis, steps);
-    } else if (is_power(axis->period)) {
-        add_masked(index, end, axis, steps);
-    } else {
-        add_any(index, end, axis, steps);
-    }
+    find_places(index, line, row, ANY);
 }
 
 static void find(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
 {
-    if (line->repeats) {
-        find_repeated(index, line, row);
-        return;
+    const uint32_t u_period = line->sampler.u.period;
+    const uint32_t v_period = line->sampler.v.period;
+    if ((u_period | v_period) == 0) {
+        find_clamped(index, line, row);
+    } else if (u_period != 0 && v_period != 0 && is_power(u_period) && is_power(v_period)) {
+        find_in_powers(index, line, row);
+    } else {
+        find_any(index, line, row);
     }
-    const uint32_t *const end = index + row->count;
-    for (uint32_t i = 0; i < row->count; i++) {
-        index[i] = 0;
-    }
-    const el_sampler *const sampler = &line->sampler;
-    add_axis(index, end, &sampler->v, &(axis_steps){row->v_q16, row->v_step_q16, sampler->image.width});
-    add_axis(index, end, &sampler->u, &(axis_steps){row->u_q16, row->u_step_q16, 1});
 }
 
 /* --- What they are ------------------------------------------------------------------------------------------------------- */
 
 enum { NO_KEY = 1 << 16 };
 
-static EL_SPECIALISED void look_up(const el_image *image, const uint32_t *index, const el_texel_row *row,
-                                   uint16_t *shown, el_image_format format, bool shows)
+/* How much of texels shows: all, all or nothing, or what their alpha says. */
+typedef enum showing { ALL, KEYED, ALPHA } showing;
+
+/* Of texels whose places are found; or, without places, of those that repeat with powers of two. */
+static EL_SPECIALISED void look_up(const el_texel_line *line, const uint32_t *index, const el_texel_row *row,
+                                   uint16_t *shown, el_image_format format, showing shows)
 {
+    const el_image *const image = &line->sampler.image;
     const void *const pixels = image->pixels;
     const uint16_t *const palette = image->palette;
+    const uint8_t *const alpha = image->alpha;
     const uint32_t key = image->has_key ? image->key : NO_KEY;
+    const el_texel_source from = line->texels.source;
+    const uint32_t u_step_q16 = row->u_step_q16;
+    const uint32_t v_step_q16 = row->v_step_q16;
+    uint32_t u_q16 = row->u_q16;
+    uint32_t v_q16 = row->v_q16;
     uint16_t *colour = row->colour;
     const uint16_t *const end = colour + row->count;
     do {
-        const uint32_t i = *index++;
+        uint32_t i;
+        if (index != NULL) {
+            i = *index++;
+        } else {
+            i = ((v_q16 >> from.v_down) & from.v_mask) | ((u_q16 >> 16) & from.u_mask);
+            u_q16 += u_step_q16;
+            v_q16 += v_step_q16;
+        }
         uint32_t value;
         if (format == EL_IMAGE_RGB565) {
             value = ((const uint16_t *)pixels)[i];
@@ -146,49 +128,94 @@ static EL_SPECIALISED void look_up(const el_image *image, const uint32_t *index,
             value = (uint32_t)((const uint8_t *)pixels)[i / 8U] >> (~i & 7U) & 1U;
             *colour = palette[0];
         }
-        if (shows) {
-            *shown++ = value == key || (format == EL_IMAGE_MASK && value == 0) ? 0 : 256;
+        if (shows != ALL) {
+            const bool is_there = value != key && (format != EL_IMAGE_MASK || value != 0);
+            *shown++ = (uint16_t)(!is_there ? 0U : (shows == ALPHA ? el_alpha_256(alpha[i]) : 256U));
         }
     } while (++colour != end);
 }
 
-/* A loop for each format, all of which shows or not. */
+/* A loop for each format and how it shows, a palette's alpha apart. */
 #define LOOK_UPS(DO)                                                                                                   \
-    DO(words, EL_IMAGE_RGB565, false)                                                                                  \
-    DO(words_shown, EL_IMAGE_RGB565, true)                                                                             \
-    DO(bytes, EL_IMAGE_INDEX8, false)                                                                                  \
-    DO(bytes_shown, EL_IMAGE_INDEX8, true)                                                                             \
-    DO(halves, EL_IMAGE_INDEX4, false)                                                                                 \
-    DO(halves_shown, EL_IMAGE_INDEX4, true)                                                                            \
-    DO(bits_shown, EL_IMAGE_MASK, true)
+    DO(words, EL_IMAGE_RGB565, ALL)                                                                                    \
+    DO(words_keyed, EL_IMAGE_RGB565, KEYED)                                                                            \
+    DO(words_alpha, EL_IMAGE_RGB565, ALPHA)                                                                            \
+    DO(bytes, EL_IMAGE_INDEX8, ALL)                                                                                    \
+    DO(bytes_keyed, EL_IMAGE_INDEX8, KEYED)                                                                            \
+    DO(halves, EL_IMAGE_INDEX4, ALL)                                                                                   \
+    DO(halves_keyed, EL_IMAGE_INDEX4, KEYED)                                                                           \
+    DO(bits_keyed, EL_IMAGE_MASK, KEYED)
 
 #define DEFINE(name, format, shows)                                                                                    \
-    static EL_APART void look_up_##name(const el_image *image, const uint32_t *index, const el_texel_row *row,         \
+    static EL_APART void look_up_##name(const el_texel_line *line, const uint32_t *index, const el_texel_row *row,     \
                                         uint16_t *shown)                                                               \
     {                                                                                                                  \
-        look_up(image, index, row, shown, (format), (shows));                                                          \
+        look_up(line, index, row, shown, (format), (shows));                                                           \
+    }                                                                                                                  \
+    static EL_APART void repeat_##name(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)            \
+    {                                                                                                                  \
+        look_up(line, NULL, row, shown, (format), (shows));                                                            \
     }
 LOOK_UPS(DEFINE)
 
-static EL_APART void weaken(const uint8_t *alpha, const uint32_t *index, uint16_t *shown, uint32_t count)
+#define NAME(name, format, shows) LOOP_##name,
+enum { LOOK_UPS(NAME) LOOPS };
+
+static const uint8_t formats[LOOPS] = {
+#define FORMAT(name, format, shows) (format),
+    LOOK_UPS(FORMAT)};
+
+static const uint8_t showings[LOOPS] = {
+#define SHOWING(name, format, shows) (shows),
+    LOOK_UPS(SHOWING)};
+
+/* Its look-up. What a palette's texels have of alpha is put to it afterwards. */
+static void choose_loop(el_texel_line *line)
+{
+    const el_image *const image = &line->sampler.image;
+    line->has_alpha_apart = image->alpha != NULL && image->format != EL_IMAGE_RGB565;
+    const showing shows = image->alpha != NULL && !line->has_alpha_apart ? ALPHA : (line->shows ? KEYED : ALL);
+    line->loop = 0;
+    while (formats[line->loop] != image->format || showings[line->loop] != shows) {
+        line->loop++;
+    }
+}
+
+static void weaken(const uint8_t *alpha, const uint32_t *index, uint16_t *shown, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         shown[i] = (uint16_t)(shown[i] * el_alpha_256(alpha[index[i]]) >> 8);
     }
 }
 
-static void draw_nearest(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)
+static void draw_repeated(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)
 {
-    const el_image *const image = &line->sampler.image;
+    switch (line->loop) {
+#define REPEAT(name, format, shows)                                                                                    \
+    case LOOP_##name:                                                                                                  \
+        repeat_##name(line, row, shown);                                                                               \
+        break;
+        LOOK_UPS(REPEAT)
+    default:
+        break;
+    }
+}
+
+static EL_APART void draw_found(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)
+{
     uint32_t index[EL_MAX_PIECE];
     find(index, line, row);
-#define CALL(name, is_format, is_shown)                                                                                \
-    if (image->format == (is_format) && line->shows == (is_shown)) {                                                   \
-        look_up_##name(image, index, row, shown);                                                                      \
+    switch (line->loop) {
+#define LOOK_UP(name, format, shows)                                                                                   \
+    case LOOP_##name:                                                                                                  \
+        look_up_##name(line, index, row, shown);                                                                       \
+        break;
+        LOOK_UPS(LOOK_UP)
+    default:
+        break;
     }
-    LOOK_UPS(CALL)
-    if (image->alpha != NULL) {
-        weaken(image->alpha, index, shown, row->count);
+    if (line->has_alpha_apart) {
+        weaken(line->sampler.image.alpha, index, shown, row->count);
     }
 }
 
@@ -254,14 +281,42 @@ static EL_APART void draw_any(const el_texel_line *line, const el_texel_row *row
     }
 }
 
+void el_texel_line_make(el_texel_line *line, const el_texture *texture)
+{
+    el_sampler *const sampler = &line->sampler;
+    const el_image *const image = &sampler->image;
+    el_sampler_make(sampler, texture);
+    const uint32_t width = image->width;
+    const uint32_t height = image->height;
+    line->shows = image->has_key || image->format == EL_IMAGE_MASK || image->alpha != NULL;
+    line->repeats = sampler->u.period == width && sampler->v.period == height && is_power(width) && is_power(height);
+    if (line->repeats) {
+        line->texels = el_texels_of(&(el_texture){.texels = image->pixels,
+                                                  .width_log2 = (uint8_t)(el_bit_length_u32(width) - 1),
+                                                  .height_log2 = (uint8_t)(el_bit_length_u32(height) - 1)});
+    }
+    choose_loop(line);
+    const bool is_plain = line->repeats && image->format == EL_IMAGE_RGB565 && !line->shows;
+    if (is_plain) {
+        line->way = sampler->smooth ? EL_TEXELS_SMOOTH : EL_TEXELS_PLAIN;
+    } else if (sampler->smooth || !has_indices(image)) {
+        line->way = EL_TEXELS_ANY;
+    } else {
+        line->way = line->repeats && !line->has_alpha_apart ? EL_TEXELS_REPEATED : EL_TEXELS_FOUND;
+    }
+}
+
 void el_texel_line_draw(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)
 {
     switch (line->way) {
     case EL_TEXELS_PLAIN:
         el_draw_texels(&line->texels, row);
         break;
-    case EL_TEXELS_NEAREST:
-        draw_nearest(line, row, shown);
+    case EL_TEXELS_REPEATED:
+        draw_repeated(line, row, shown);
+        break;
+    case EL_TEXELS_FOUND:
+        draw_found(line, row, shown);
         break;
     case EL_TEXELS_SMOOTH:
         draw_smooth(line, row);

@@ -12,16 +12,19 @@
 
 /* How they are found. */
 typedef enum el_texel_way {
-    EL_TEXELS_PLAIN,   /* RGB565 that repeats with powers of two, all of which shows: as by fill_texture.c */
-    EL_TEXELS_NEAREST, /* any other of which a texel is found by y * width + x */
-    EL_TEXELS_SMOOTH,  /* of plain ones, the mean of four */
-    EL_TEXELS_ANY      /* what is left: one at a time */
+    EL_TEXELS_PLAIN,    /* RGB565 that repeats with powers of two, all of which shows: as by fill_texture.c */
+    EL_TEXELS_SMOOTH,   /* of such, the mean of four */
+    EL_TEXELS_REPEATED, /* anything else that repeats so */
+    EL_TEXELS_FOUND,    /* places first: of y * width + x there is a texel */
+    EL_TEXELS_ANY       /* what is left: one at a time */
 } el_texel_way;
 
 typedef struct el_texel_line {
     el_texel_way way;
     bool repeats; /* with powers of two, in both directions: `texels` are those */
     bool shows;   /* not all of it shows */
+    bool has_alpha_apart;
+    uint8_t loop;
     el_texels texels;
     el_sampler sampler;
 } el_texel_line;
