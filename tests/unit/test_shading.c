@@ -183,7 +183,7 @@ static void test_a_back_is_lit_by_the_turned_normal(void)
     TEST_ASSERT_EQUAL_HEX16(0, surface.colour);
     gather(EL_RECORD_PLAIN, true);
     TEST_ASSERT_EQUAL_HEX16(el_rgb565(255, 0, 128), surface.colour);
-    draw.mirrored = 1; /* in a mirror the front runs the other way */
+    draw.flags = EL_DRAW_MIRRORED; /* in a mirror the front runs the other way */
     el_list_end_draw(&list);
     gather(EL_RECORD_PLAIN, true);
     TEST_ASSERT_EQUAL_HEX16(0, surface.colour);

@@ -170,4 +170,11 @@
 #define EL_SPECIALISED inline __attribute__((always_inline))
 #endif
 
+/* What is made up to here is not made in another way. */
+#if defined(__thumb__) || defined(__riscv)
+#define EL_SETTLE(value) __asm__("" : "+r"(value))
+#else
+#define EL_SETTLE(value) ((void)(value))
+#endif
+
 #endif

@@ -26,18 +26,30 @@ void el_bands_flush(el_renderer *renderer);
 /* Draws the pass' bands and hands them over. */
 void el_bands_finish(el_renderer *renderer);
 
+/* What one core does with a band, frame/painter.c: */
+
+/* Lets `painter` carry what it may in bytes [begin, end) of the list's memory, and count in `stats`. */
+static inline void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end,
+                                    el_stats *stats)
+{
+    painter->stats = stats;
+    painter->carrying =
+        (el_carrying){.first_state = (uint16_t)(list->used / EL_LIST_UNIT), .begin = begin, .used = begin, .end = end};
+}
+
+/* Draws the triangles of the chain that begins with `fresh`, and those carried on from above, into an open band. Carries on
+ * what reaches beyond it, where the painter goes on. */
+void el_painter_draw(el_painter *painter, const el_renderer *renderer, const el_target *target, uint16_t fresh);
+
 #if EL_WITH_WORKERS
 /* For frame/workers.c: */
 
-/* Lets `painter` carry what it may in bytes [begin, end) of the list's memory, and count in `stats`. */
-void el_painter_begin(el_painter *painter, const el_list *list, uint32_t begin, uint32_t end, el_stats *stats);
-
-/* Draws the triangles of `band` and those carried on from above into the painter's current buffer, which is free. Carries
- * on what reaches beyond, where `goes_on`. */
-void el_painter_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on);
+/* Opens the painter's current buffer, which is free, for `band`, unless it is open, and draws what has been collected of it.
+ * Carries on what reaches beyond, where `goes_on`. */
+void el_bands_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on);
 
 /* All triangles of the painter's current band are drawn: what comes over them. */
-void el_painter_finish(el_painter *painter, const el_renderer *renderer);
+void el_bands_complete(el_painter *painter, const el_renderer *renderer);
 
 /* Gives a complete band to the sinks. */
 void el_bands_hand_over(el_renderer *renderer, el_band *band);
@@ -45,7 +57,7 @@ void el_bands_hand_over(el_renderer *renderer, el_band *band);
 /* Lets the sinks go on, or sleep, while `band` is theirs. */
 void el_bands_wait_for_sinks(const el_renderer *renderer, const el_band *band);
 
-/* el_bands_finish with several workers. Empties no list. */
+/* el_bands_finish with several workers. */
 void el_workers_draw_pass(el_renderer *renderer);
 #endif
 

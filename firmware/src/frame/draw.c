@@ -110,7 +110,7 @@ static bool seen_from_back(const el_draw_state *draw, const el_clip_vertex v[3])
     /* Sign of the determinant of the (x, y, w) rows, with 19 bits of each, so that it stays below 2^60 whatever they
      * hold. What is turned by less looks alike lit from either side. */
     const int32_t rows[3][3] = {{v[0].x, v[0].y, v[0].w}, {v[1].x, v[1].y, v[1].w}, {v[2].x, v[2].y, v[2].w}};
-    return el_determinant_is_negative(rows, 12) != (draw->mirrored != 0);
+    return el_determinant_is_negative(rows, 12) != ((draw->flags & EL_DRAW_MIRRORED) != 0);
 }
 
 /* A corner from which a fan has triangles of one winding. Snapping can dent a cut polygon by a sub-pixel; from the wrong
@@ -312,21 +312,16 @@ enum {
                (EL_WITH_OVERDRAW ? 0 : EL_SHADE_OVERDRAW)
 };
 
+#if EL_WITH_MIXED
 /* EL_FINISH_ of its surfaces, as it is shaded. */
 static uint8_t finish_of(const el_material *material, el_shading shading)
 {
-    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
-    unsigned finish = (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
-#if EL_WITH_MIXED
-    if (shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
-                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)))) {
-        finish |= EL_FINISH_MIXED;
-    }
-#endif
-    return (uint8_t)finish;
+    const bool is_mixed =
+        shading != EL_SHADE_OVERDRAW && (el_is_blended(material) || material->fog != NULL ||
+                                         (el_has_texture(shading) && el_texture_is_mixed(material->texture)));
+    return (uint8_t)(el_dithering_of(material, shading) | (is_mixed ? EL_FINISH_MIXED : 0U));
 }
 
-#if EL_WITH_MIXED
 /* Of a material that is good otherwise: whether what it is to be mixed with can be. */
 static bool can_mix(const el_renderer *renderer, const el_material *material)
 {
@@ -391,7 +386,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         el_count(&renderer->stats.draws_culled, 1);
         return EL_OK;
     }
-    state.mirrored = state.transform.mirrored;
+    state.flags = state.transform.mirrored;
     if (el_is_lit(material)) {
         /* Into model space, by the transposed rotation. */
         for (unsigned i = 0; i < 3; i++) {
@@ -404,7 +399,9 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (!el_debug_begin_draw(renderer, &state, &shading)) {
         return EL_OK;
     }
-    state.finish = finish_of(material, shading);
+#if EL_WITH_MIXED
+    state.flags |= finish_of(material, shading);
+#endif
     el_drawing d = {
         .renderer = renderer,
         .mesh = mesh,
@@ -412,7 +409,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         .list = &renderer->list,
         .kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN,
         .cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT,
-        .culling = {.facing = state.mirrored != 0 ? -1 : 1,
+        .culling = {.facing = state.transform.mirrored != 0 ? -1 : 1,
                     .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                     .width = renderer->config.width,
                     .height = renderer->config.height,

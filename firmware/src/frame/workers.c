@@ -34,8 +34,8 @@ static bool can_draw(const el_painter *painter)
 
 static void draw_band(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)
 {
-    el_painter_draw(painter, renderer, band, goes_on);
-    el_painter_finish(painter, renderer);
+    el_bands_draw(painter, renderer, band, goes_on);
+    el_bands_complete(painter, renderer);
     painter->current ^= 1U;
     painter->band_is_open = 0;
     store(&painter->drawn, (uint16_t)(painter->drawn + 1U));
@@ -158,6 +158,7 @@ void el_workers_draw_pass(el_renderer *renderer)
         }
     }
     el_bands_note_use(renderer, used);
+    el_list_clear(&renderer->list);
 }
 
 #endif

@@ -92,7 +92,7 @@ typedef struct el_transform {
 #endif
 #endif
     uint8_t orthographic;
-    uint8_t mirrored; /* the screen shows the model's mirror image: its front runs clockwise there */
+    uint8_t mirrored; /* 1: the screen shows the model's mirror image: its front runs clockwise there */
     uint8_t guard_shift[2];
     uint8_t depth_shift;
     uint8_t depth_excess; /* unless EL_SMALL_CODE: see depth_near; 0 where that is not used */

@@ -163,13 +163,6 @@ static EL_SPECIALISED el_values el_values_at(const el_slopes *s, int32_t x, unsi
 #define EL_KEEP_BRANCH() ((void)0)
 #endif
 
-/* What is made up to here is not made in another way. */
-#if defined(__thumb__) || defined(__riscv)
-#define EL_SETTLE(value) __asm__("" : "+r"(value))
-#else
-#define EL_SETTLE(value) ((void)(value))
-#endif
-
 /* In a loop that adds to it: a compiler does not know beforehand where it arrives, which it makes a long product of. With
  * Thumb-2 it may: it does not, and is free to load and step in one. */
 #if !defined(__thumb2__)

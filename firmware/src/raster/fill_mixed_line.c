@@ -2,65 +2,20 @@
  * another - texels, light, fog - and are then mixed with what is there. Each property is a loop of its own: a pixel pays for
  * those it has, loops add up where properties would multiply, and each has the registers that it needs. What is opaque is
  * made in its place on the screen. What the depth test hides is known before: it costs neither texel nor fog. */
+#include "raster/fill_mixed.h"
+
 #include "base/fill.h"
 #include "base/fixed.h"
 #include "raster/depth_row.h"
-#include "raster/fill.h"
-#include "raster/fog.h"
-#include "raster/texel_line.h"
-#include "raster/texture.h"
 
 #if EL_WITH_MIXED && !EL_SMALL_CODE
-
-/* How pixels come to the screen. */
-typedef enum way {
-    OPAQUE,
-    BLENDED, /* with one alpha for all */
-    TESTED,  /* texels show or do not */
-    SHOWN    /* texels have an alpha each */
-} way;
-
-typedef struct brush {
-    unsigned kind;
-    way way;
-    bool takes_depth;  /* what passes the test is drawn */
-    bool writes_depth; /* what is drawn is nearer then */
-    uint16_t flat;
-    uint32_t alpha; /* 0..256 */
-    uint32_t y;
-    const el_fog *fog;
-    el_slopes slopes;
-    el_texel_line texels;
-    el_texture_walk walk;
-} brush;
-
-static void take_up(brush *b, const el_triangle *triangle)
-{
-    const el_material *const material = triangle->surface.material;
-    const bool is_blended = el_is_blended(material);
-    b->kind = triangle->kind;
-    b->flat = triangle->surface.colour;
-    b->alpha = material->alpha == 0 ? 256U : el_alpha_256(material->alpha);
-    b->fog = (b->kind & EL_FILL_DEPTH) != 0 ? material->fog : NULL;
-    b->y = (uint32_t)triangle->y;
-    b->slopes = el_slopes_of(triangle, b->kind);
-    bool shows = false;
-    if ((b->kind & EL_FILL_TEXTURE) != 0) {
-        el_texel_line_make(&b->texels, el_texture_at_level(material->texture, triangle->surface.level));
-        el_texture_walk_start(&b->walk, triangle);
-        shows = b->texels.shows;
-    }
-    b->way = shows ? (is_blended ? SHOWN : TESTED) : (b->alpha < 256 ? BLENDED : OPAQUE);
-    b->writes_depth = !is_blended || (material->flags & EL_MATERIAL_BLEND_DEPTH) != 0;
-    b->takes_depth = b->writes_depth && !shows;
-}
 
 /* Pieces that are gathered until they are as long as one can be are less than two. */
 enum { LINE = 2 * EL_MAX_PIECE };
 
 /* A stretch of pixels that pass the depth test, 1 to LINE. */
 typedef struct stretch {
-    uint32_t x, count;
+    uint32_t y, x, count;
     uint16_t *pixels, *depth; /* on the screen */
     uint16_t *colour;         /* where it is made */
 } stretch;
@@ -75,7 +30,7 @@ static inline void fill(uint16_t *colour, uint16_t value, uint32_t count)
     } while (colour != end);
 }
 
-static EL_APART void colour_plain(const brush *b, const stretch *s)
+static EL_APART void colour_plain(const el_mixed_brush *b, const stretch *s)
 {
     el_values v = el_values_at(&b->slopes, (int32_t)s->x, EL_FILL_COLOURS);
     uint16_t *colour = s->colour;
@@ -86,14 +41,14 @@ static EL_APART void colour_plain(const brush *b, const stretch *s)
     } while (++colour != end);
 }
 
-static EL_APART void light_plain(const brush *b, const stretch *s)
+static EL_APART void light_plain(const el_mixed_brush *b, const stretch *s)
 {
-    el_light_row(&b->slopes, b->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS);
+    el_light_row(&b->slopes, s->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS);
 }
 
-static EL_APART void light_dithered(const brush *b, const stretch *s)
+static EL_APART void light_dithered(const el_mixed_brush *b, const stretch *s)
 {
-    el_light_row(&b->slopes, b->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS | EL_FILL_DITHER);
+    el_light_row(&b->slopes, s->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS | EL_FILL_DITHER);
 }
 
 /* Leading zeros of x >= 1, counted from `near` on, which is what they were at the pixel before. */
@@ -113,7 +68,7 @@ static inline uint32_t leading_zeros(uint32_t x, uint32_t near)
 #endif
 }
 
-static EL_APART void add_fog(const brush *b, const stretch *s)
+static EL_APART void add_fog(const el_mixed_brush *b, const stretch *s)
 {
     const el_fog *const fog = b->fog;
     const uint16_t fog_colour = fog->colour;
@@ -136,7 +91,7 @@ static EL_APART void add_fog(const brush *b, const stretch *s)
 /* --- How they come to the screen ----------------------------------------------------------------------------------------- */
 
 /* Two pixels at a time, from a word's begin on; the line of colours has its words where the screen has. */
-static EL_APART void blend(const brush *b, const stretch *s)
+static EL_APART void blend(const el_mixed_brush *b, const stretch *s)
 {
     const uint32_t alpha = b->alpha;
     const uint16_t *colour = s->colour;
@@ -159,7 +114,7 @@ static EL_APART void blend(const brush *b, const stretch *s)
 }
 
 /* The same of one colour: its share is a constant. */
-static EL_APART void blend_flat(const brush *b, const stretch *s)
+static EL_APART void blend_flat(const el_mixed_brush *b, const stretch *s)
 {
     const uint32_t rest = 256U - b->alpha;
     const uint32_t r_share = (b->flat >> 11) * b->alpha * 0x10001U + 0x00800080U;
@@ -185,7 +140,8 @@ static EL_APART void blend_flat(const brush *b, const stretch *s)
     }
 }
 
-static EL_SPECIALISED void show(const brush *b, const stretch *s, const uint16_t *shown, bool is_tested, bool writes)
+static EL_SPECIALISED void show(const el_mixed_brush *b, const stretch *s, const uint16_t *shown, bool is_tested,
+                                bool writes)
 {
     const uint64_t z_step = b->slopes.per_column.z;
     uint64_t z = writes ? el_values_at(&b->slopes, (int32_t)s->x, EL_FILL_DEPTH).z : 0U;
@@ -209,22 +165,22 @@ static EL_SPECIALISED void show(const brush *b, const stretch *s, const uint16_t
     } while (++pixel != end);
 }
 
-static EL_APART void test(const brush *b, const stretch *s, const uint16_t *shown)
+static EL_APART void test(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
 {
     show(b, s, shown, true, false);
 }
 
-static EL_APART void test_and_write(const brush *b, const stretch *s, const uint16_t *shown)
+static EL_APART void test_and_write(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
 {
     show(b, s, shown, true, true);
 }
 
-static EL_APART void blend_shown(const brush *b, const stretch *s, const uint16_t *shown)
+static EL_APART void blend_shown(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
 {
     show(b, s, shown, false, false);
 }
 
-static EL_APART void blend_and_write(const brush *b, const stretch *s, const uint16_t *shown)
+static EL_APART void blend_and_write(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
 {
     show(b, s, shown, false, true);
 }
@@ -232,7 +188,7 @@ static EL_APART void blend_and_write(const brush *b, const stretch *s, const uin
 /* --- Stretches ------------------------------------------------------------------------------------------------------------ */
 
 /* Its colours but for texels, which are there already. */
-static void finish_colours(const brush *b, const stretch *s)
+static void finish_colours(const el_mixed_brush *b, const stretch *s)
 {
     const unsigned look = b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER);
     if ((look & EL_FILL_TEXTURE) == 0 && look != EL_FILL_COLOURS) {
@@ -250,19 +206,19 @@ static void finish_colours(const brush *b, const stretch *s)
     }
 }
 
-static void draw_stretch(const brush *b, const stretch *s, const uint16_t *shown)
+static void draw_stretch(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
 {
     const bool writes = b->writes_depth && (b->kind & EL_FILL_DEPTH) != 0;
-    if (b->way == BLENDED && b->fog == NULL && (b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) == 0) {
+    if (b->way == EL_MIXED_BLENDED && b->fog == NULL && (b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) == 0) {
         blend_flat(b, s);
         return;
     }
     finish_colours(b, s);
-    if (b->way == BLENDED) {
+    if (b->way == EL_MIXED_BLENDED) {
         blend(b, s);
-    } else if (b->way == TESTED) {
+    } else if (b->way == EL_MIXED_TESTED) {
         writes ? test_and_write(b, s, shown) : test(b, s, shown);
-    } else if (b->way == SHOWN) {
+    } else if (b->way == EL_MIXED_SHOWN) {
         writes ? blend_and_write(b, s, shown) : blend_shown(b, s, shown);
     }
 }
@@ -275,19 +231,22 @@ typedef struct runs {
     uint32_t begin, end;
 } runs;
 
-static inline void go_on(runs *r, const brush *b)
+static inline void go_on(runs *r, const el_mixed_brush *b)
 {
     r->begin = r->end + el_depth_row_skip(&r->depth);
-    r->end = r->begin + (b->takes_depth ? el_depth_row_take(&r->depth) : el_depth_row_pass(&r->depth));
+    const bool takes = b->writes_depth && b->way <= EL_MIXED_BLENDED; /* all that passes is drawn */
+    r->end = r->begin + (takes ? el_depth_row_take(&r->depth) : el_depth_row_pass(&r->depth));
 }
 
 /* Where there is no test, all is. */
-static inline void begin_runs(runs *r, const brush *b, uint32_t x, uint32_t x_end, uint16_t *depth)
+static inline void begin_runs(runs *r, const el_mixed_brush *b, const el_mixed_span *span)
 {
+    const uint32_t x = span->x;
+    const uint32_t x_end = span->x_end;
     r->begin = x;
     r->end = x_end;
     if ((b->kind & EL_FILL_DEPTH) != 0) {
-        el_depth_row_begin(&r->depth, depth + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
+        el_depth_row_begin(&r->depth, span->depth + x, x_end - x, el_values_at(&b->slopes, (int32_t)x, EL_FILL_DEPTH).z,
                            b->slopes.per_column.z);
         r->end = x;
         go_on(r, b);
@@ -295,20 +254,21 @@ static inline void begin_runs(runs *r, const brush *b, uint32_t x, uint32_t x_en
 }
 
 /* Where a stretch's colours are made: in their place, or in a line. */
-static inline uint16_t *place_of(const brush *b, uint16_t *pixels, uint16_t *line)
+static inline uint16_t *place_of(const el_mixed_brush *b, uint16_t *pixels, uint16_t *line)
 {
-    return b->way == OPAQUE ? pixels : line + ((uintptr_t)pixels >> 1 & 1U);
+    return b->way == EL_MIXED_OPAQUE ? pixels : line + ((uintptr_t)pixels >> 1 & 1U);
 }
 
-static EL_APART void draw_plain(const brush *b, uint32_t x, uint32_t x_end, uint16_t *row, uint16_t *depth)
+static EL_APART void draw_plain(const el_mixed_brush *b, const el_mixed_span *span)
 {
+    const uint32_t x_end = span->x_end;
     _Alignas(4) uint16_t line[LINE + 1];
     runs r;
-    begin_runs(&r, b, x, x_end, depth);
+    begin_runs(&r, b, span);
     while (r.begin < x_end) {
         const uint32_t count = r.end - r.begin < LINE ? r.end - r.begin : LINE;
-        uint16_t *const pixels = row + r.begin;
-        const stretch s = {r.begin, count, pixels, NULL, place_of(b, pixels, line)};
+        uint16_t *const pixels = span->row + r.begin;
+        const stretch s = {span->y, r.begin, count, pixels, NULL, place_of(b, pixels, line)};
         draw_stretch(b, &s, NULL);
         r.begin += count;
         if (r.begin == r.end && r.begin < x_end) {
@@ -328,7 +288,7 @@ static inline uint32_t make_piece(el_texture_walk *walk, uint32_t x, uint32_t at
     return 1;
 }
 
-static inline void draw_texels(const brush *b, uint16_t *colour, uint16_t *shown, uint32_t count)
+static inline void draw_texels(const el_mixed_brush *b, uint16_t *colour, uint16_t *shown, uint32_t count)
 {
     const el_texel_row row = {.u_q16 = (uint32_t)b->walk.u.q16,
                               .v_q16 = (uint32_t)b->walk.v.q16,
@@ -340,31 +300,32 @@ static inline void draw_texels(const brush *b, uint16_t *colour, uint16_t *shown
 }
 
 /* Texels come piece by piece; what is seen of some pieces is a stretch. */
-static EL_APART void draw_textured(brush *b, const el_perspective *planes, uint32_t x, uint32_t x_end, uint16_t *row,
-                                   uint16_t *depth)
+static EL_APART void draw_textured(el_mixed_brush *b, const el_mixed_span *span, const el_perspective *planes)
 {
+    const uint32_t begin = span->x;
+    const uint32_t x_end = span->x_end;
     _Alignas(4) uint16_t line[LINE + 1];
     uint16_t shown[LINE];
-    const uint32_t begin = x;
     runs r;
-    begin_runs(&r, b, x, x_end, depth);
+    begin_runs(&r, b, span);
     if (r.begin == x_end) {
         return;
     }
-    el_texture_walk_begin(&b->walk, planes, x, x_end - x);
+    el_texture_walk_begin(&b->walk, planes, begin, x_end - begin);
+    uint32_t x = begin;
     uint32_t drawn = r.begin; /* up to there */
     while (r.begin < x_end) {
         const uint32_t piece_end = x + make_piece(&b->walk, x, x - begin, x_end);
         while (drawn < piece_end) {
             const uint32_t end = r.end < piece_end ? r.end : piece_end;
-            uint16_t *const pixels = row + r.begin;
+            uint16_t *const pixels = span->row + r.begin;
             uint16_t *const colour = place_of(b, pixels, line);
             el_texture_walk_skip(&b->walk, drawn - x);
             draw_texels(b, colour + (drawn - r.begin), shown + (drawn - r.begin), end - drawn);
             x = drawn;
             drawn = end;
             if (drawn == r.end || drawn - r.begin >= EL_MAX_PIECE) {
-                const stretch s = {r.begin, drawn - r.begin, pixels, depth + r.begin, colour};
+                const stretch s = {span->y, r.begin, drawn - r.begin, pixels, span->depth + r.begin, colour};
                 draw_stretch(b, &s, shown);
                 r.begin = drawn;
                 if (drawn == r.end && drawn < x_end) {
@@ -377,33 +338,12 @@ static EL_APART void draw_textured(brush *b, const el_perspective *planes, uint3
     }
 }
 
-int32_t el_fill_mixed(el_triangle *triangle, const el_target *target, el_stats *stats, unsigned kind)
+void el_mixed_draw_span(el_mixed_brush *b, const el_mixed_span *span, const el_perspective *planes)
 {
-    brush b;
-    take_up(&b, triangle);
-    el_spans spans;
-    int32_t at = (triangle->y - target->y) * target->width;
-    const int32_t rows = el_spans_next(triangle, target, stats, &spans);
-    for (int32_t i = 0; i < rows; i++) {
-        if (spans.x[i] < spans.x_end[i]) {
-            uint16_t *const row = target->colour + at;
-            uint16_t *const depth = target->depth + at;
-            if ((kind & EL_FILL_TEXTURE) != 0) {
-                draw_textured(&b, &triangle->perspective, spans.x[i], spans.x_end[i], row, depth);
-            } else {
-                draw_plain(&b, spans.x[i], spans.x_end[i], row, depth);
-            }
-        } else {
-            el_count_empty(stats);
-        }
-        el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
-        if ((kind & EL_FILL_TEXTURE) != 0) {
-            el_perspective_next_row(&triangle->perspective);
-        }
-        at += target->width;
-        b.y++;
+    if ((b->kind & EL_FILL_TEXTURE) != 0) {
+        draw_textured(b, span, planes);
+    } else {
+        draw_plain(b, span);
     }
-    el_slopes_keep(&b.slopes, triangle, kind);
-    return rows;
 }
 #endif

@@ -298,7 +298,7 @@ unsigned el_list_gather(const el_list *list, const el_record *record, el_corner 
     const el_shading shading = el_shading_of(draw);
     surface->shading = shading;
     surface->depth = (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && shading != EL_SHADE_OVERDRAW;
-    surface->finish = draw->finish;
+    surface->finish = (uint8_t)el_finish_of(draw, shading);
     surface->texture = material->texture;
     if (el_is_mixed(surface)) {
         surface->material = material;
@@ -340,7 +340,7 @@ unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_c
     *surface = (el_surface){
         .shading = EL_SHADE_FLAT,
         .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW &&
-                 (draw->finish & EL_FINISH_MIXED) == 0,
+                 !el_draws_mixed(draw),
     };
     if (!surface->depth) {
         return 0U;

@@ -47,13 +47,15 @@ typedef enum el_record_kind {
     EL_RUN_IS_GAP = EL_RECORD_KINDS /* a run without records, from its header to its end */
 } el_record_kind;
 
+enum { EL_DRAW_MIRRORED = 1 }; /* front faces run clockwise on the screen */
+_Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED)) == 0, "they share a byte");
+
 /* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
     const el_mesh *mesh;
     const el_material *material;
     int16_t light_q14[3]; /* direction towards the light in model space */
-    uint8_t mirrored;     /* front faces run clockwise on the screen */
-    uint8_t finish;       /* EL_FINISH_ (triangle.h) of its surfaces */
+    uint8_t flags;        /* EL_DRAW_MIRRORED; with EL_WITH_MIXED EL_FINISH_ of its surfaces, too */
 #if EL_WITH_DEBUG_VIEWS
     uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
     uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */
@@ -73,11 +75,39 @@ static inline el_shading el_shading_of(const el_draw_state *draw)
 #endif
 }
 
+/* EL_FINISH_DITHER, if what is shaded so is dithered. */
+static inline unsigned el_dithering_of(const el_material *material, el_shading shading)
+{
+    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+    return (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
+}
+
+/* EL_FINISH_ of the draw's triangles, which are shaded so, among bits of no meaning. */
+static inline unsigned el_finish_of(const el_draw_state *draw, el_shading shading)
+{
+#if EL_WITH_MIXED
+    (void)shading;
+    return draw->flags;
+#else
+    return el_dithering_of(draw->material, shading);
+#endif
+}
+
+static inline bool el_draws_mixed(const el_draw_state *draw)
+{
+#if EL_WITH_MIXED
+    return (draw->flags & EL_FINISH_MIXED) != 0;
+#else
+    (void)draw;
+    return false;
+#endif
+}
+
 /* Whether a triangle of that doubled area (el_doubled_area, not 0) shows its back. */
 static inline bool el_shows_back(const el_draw_state *draw, int64_t doubled_area)
 {
     /* Front faces run counter-clockwise, against the sense in which an area with y down is positive. */
-    return (doubled_area > 0) != (draw->mirrored != 0);
+    return (doubled_area > 0) != ((draw->flags & EL_DRAW_MIRRORED) != 0);
 }
 
 typedef struct el_run {

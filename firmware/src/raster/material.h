@@ -63,6 +63,12 @@ typedef struct el_material {
 #endif
 } el_material;
 
+/* What a surface needs beside its shading. */
+enum {
+    EL_FINISH_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0, /* Gouraud and textured times Gouraud alone */
+    EL_FINISH_MIXED = EL_WITH_MIXED ? 32 : 0                       /* el_fill_mixed; not with overdraw */
+};
+
 static inline bool el_is_lit(const el_material *material)
 {
     return EL_WITH_LIGHT && material->light != NULL;

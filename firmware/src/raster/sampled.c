@@ -7,6 +7,7 @@
 #include "raster/samples.h"
 
 #include "base/fixed.h"
+#include "raster/fill_mixed.h"
 #include "raster/fill_row.h"
 #include "raster/sampled_pixel.h"
 #include "raster/small_sampled.h"
@@ -30,7 +31,12 @@ typedef struct sampled {
     uint64_t z_at[EL_MAX_SAMPLES + 1];
     uint32_t rgb_at[EL_MAX_SAMPLES + 1][3];
     uint64_t wuv_at[EL_MAX_SAMPLES + 1][3];
-    el_row_brush brush;
+    union {
+        el_row_brush brush;
+#if EL_WITH_MIXED
+        el_mixed_brush mixed_brush; /* of EL_FILL_MIXED */
+#endif
+    };
     sample_edges edges[EL_MAX_SAMPLES];
 } sampled;
 
@@ -231,6 +237,52 @@ static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at,
     return s->triangle.surface.colour;
 }
 
+/* Gives samples of their own to a pixel that has none. */
+static inline void mix(const el_sampled_place *at, uint32_t x, uint32_t count)
+{
+    uint32_t *const samples = at->samples + x * count;
+    const uint32_t old = (uint32_t)at->depth[x] << 16 | at->colour[x];
+    for (uint32_t i = 0; i < count; i++) {
+        samples[i] = old;
+    }
+    at->mixed[x / 32U] |= 1U << (x % 32U);
+    at->depth[x] = 0;
+    at->colour[x] = 0;
+}
+
+#if EL_WITH_MIXED
+/* draw_samples of what is mixed with what is there: with that of each sample. */
+static EL_APART void blend_samples(sampled *s, const el_sampled_place *at, uint32_t z, uint32_t x, uint32_t mask,
+                                   unsigned k)
+{
+    const unsigned count = s->target->count;
+    uint32_t *const samples = at->samples + x * count;
+    const bool tests = (s->triangle.kind & EL_FILL_DEPTH) != 0;
+    const bool writes = tests && s->mixed_brush.writes_depth;
+    const bool is_mixed = el_pixel_is_mixed(at, x);
+    if (is_mixed) {
+        el_spread(at, x, count);
+    }
+    uint16_t colour = 0;
+    shift_values(s, k, 1);
+    const uint32_t shown = el_mixed_pixel(&s->mixed_brush, &s->triangle, x, z, &colour);
+    shift_values(s, k, -1);
+    if (shown == 0) {
+        return;
+    }
+    if (!is_mixed) {
+        mix(at, x, count);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const uint32_t old = samples[i];
+        if ((mask >> i & 1U) != 0 && (!tests || z < old >> 16)) {
+            const uint32_t blended = shown == 256 ? colour : el_rgb565_blend((uint16_t)old, colour, shown);
+            samples[i] = (writes ? z << 16 : old & 0xFFFF0000U) | blended;
+        }
+    }
+}
+#endif
+
 /* Draws the samples of `mask`, not 0, of a pixel, in the depth and colour at sample k. */
 static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x,
                                         uint32_t mask, unsigned k, unsigned kind)
@@ -246,16 +298,16 @@ static EL_SPECIALISED void draw_samples(sampled *s, const el_sampled_place *at, 
             return;
         }
     }
+#if EL_WITH_MIXED
+    if ((kind & EL_FILL_MIXED) != 0) {
+        blend_samples(s, at, z, x, mask, k);
+        return;
+    }
+#endif
     if (mixed) {
         el_spread(at, x, count);
     } else {
-        const uint32_t old = (uint32_t)at->depth[x] << 16 | at->colour[x];
-        for (unsigned i = 0; i < count; i++) {
-            samples[i] = old;
-        }
-        at->mixed[x / 32U] |= 1U << (x % 32U);
-        at->depth[x] = 0;
-        at->colour[x] = 0;
+        mix(at, x, count);
     }
     const uint32_t colour = colour_at(s, at, v, x, k, kind);
     for (unsigned i = 0; i < count; i++) {
@@ -324,7 +376,12 @@ static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, co
     if (any_mixed && (kind & EL_FILL_DEPTH) == 0) {
         spread_all(at, x, x_end, s->target->count);
     }
-    if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
+#if EL_WITH_MIXED
+    if ((kind & EL_FILL_MIXED) != 0) {
+        el_mixed_draw_row(&s->mixed_brush, &s->triangle, x, x_end, at->colour, at->depth);
+    } else
+#endif
+        if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         const el_cursor cursor = {
             .row = (kind & EL_FILL_DEPTH) != 0 ? at->depth : at->colour,
             .to_colour = (kind & EL_FILL_DEPTH) != 0 ? (uintptr_t)at->colour - (uintptr_t)at->depth : 0U,
@@ -412,7 +469,15 @@ static EL_APART void draw_any(const el_corner *const sorted[3], int64_t area, co
     for (unsigned k = 0; k < target->count; k++) {
         make_edges(&s.edges[k], sorted, &s.points[k], y, s.short_is_left);
     }
+#if EL_WITH_MIXED
+    if ((s.triangle.kind & EL_FILL_MIXED) != 0) {
+        el_mixed_brush_begin(&s.mixed_brush, &s.triangle);
+    } else {
+        el_row_brush_begin(&s.brush, &s.triangle);
+    }
+#else
     el_row_brush_begin(&s.brush, &s.triangle);
+#endif
     if (s.triangle.kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) {
         draw_coloured(&s, y, y_end, stats);
     } else if (s.triangle.kind == EL_FILL_DEPTH) {

@@ -23,6 +23,7 @@ typedef struct el_sampler {
     el_image image;
     el_sampler_axis u, v;
     bool smooth;
+    bool is_open; /* not all of it shows */
 } el_sampler;
 
 void el_sampler_make(el_sampler *sampler, const el_texture *texture);

@@ -35,8 +35,8 @@ typedef enum places { IN_POWERS, CLAMPED, ANY } places;
 
 static EL_SPECIALISED void find_places(uint32_t *index, const el_texel_line *line, const el_texel_row *row, places how)
 {
-    const el_sampler_axis u = line->sampler.u;
-    const el_sampler_axis v = line->sampler.v;
+    const el_sampler_axis u = line->sampler->u;
+    const el_sampler_axis v = line->sampler->v;
     const uint32_t width = u.size;
     const uint32_t *const end = index + row->count;
     uint32_t u_q16 = row->u_q16;
@@ -71,8 +71,8 @@ static EL_APART void find_any(uint32_t *index, const el_texel_line *line, const 
 
 static void find(uint32_t *index, const el_texel_line *line, const el_texel_row *row)
 {
-    const uint32_t u_period = line->sampler.u.period;
-    const uint32_t v_period = line->sampler.v.period;
+    const uint32_t u_period = line->sampler->u.period;
+    const uint32_t v_period = line->sampler->v.period;
     if ((u_period | v_period) == 0) {
         find_clamped(index, line, row);
     } else if (u_period != 0 && v_period != 0 && is_power(u_period) && is_power(v_period)) {
@@ -93,7 +93,7 @@ typedef enum showing { ALL, KEYED, ALPHA } showing;
 static EL_SPECIALISED void look_up(const el_texel_line *line, const uint32_t *index, const el_texel_row *row,
                                    uint16_t *shown, el_image_format format, showing shows)
 {
-    const el_image *const image = &line->sampler.image;
+    const el_image *const image = &line->sampler->image;
     const void *const pixels = image->pixels;
     const uint16_t *const palette = image->palette;
     const uint8_t *const alpha = image->alpha;
@@ -172,9 +172,10 @@ static const uint8_t showings[LOOPS] = {
 /* Its look-up. What a palette's texels have of alpha is put to it afterwards. */
 static void choose_loop(el_texel_line *line)
 {
-    const el_image *const image = &line->sampler.image;
+    const el_image *const image = &line->sampler->image;
     line->has_alpha_apart = image->alpha != NULL && image->format != EL_IMAGE_RGB565;
-    const showing shows = image->alpha != NULL && !line->has_alpha_apart ? ALPHA : (line->shows ? KEYED : ALL);
+    const showing shows =
+        image->alpha != NULL && !line->has_alpha_apart ? ALPHA : (line->sampler->is_open ? KEYED : ALL);
     line->loop = 0;
     while (formats[line->loop] != image->format || showings[line->loop] != shows) {
         line->loop++;
@@ -215,7 +216,7 @@ static EL_APART void draw_found(const el_texel_line *line, const el_texel_row *r
         break;
     }
     if (line->has_alpha_apart) {
-        weaken(line->sampler.image.alpha, index, shown, row->count);
+        weaken(line->sampler->image.alpha, index, shown, row->count);
     }
 }
 
@@ -272,8 +273,8 @@ static EL_APART void draw_any(const el_texel_line *line, const el_texel_row *row
     uint32_t u_q16 = row->u_q16;
     uint32_t v_q16 = row->v_q16;
     for (uint32_t i = 0; i < row->count; i++) {
-        const uint32_t parts = el_sampler_at(&line->sampler, u_q16, v_q16, &row->colour[i]);
-        if (line->shows) {
+        const uint32_t parts = el_sampler_at(line->sampler, u_q16, v_q16, &row->colour[i]);
+        if (line->sampler->is_open) {
             shown[i] = (uint16_t)parts;
         }
         u_q16 += row->u_step_q16;
@@ -281,14 +282,12 @@ static EL_APART void draw_any(const el_texel_line *line, const el_texel_row *row
     }
 }
 
-void el_texel_line_make(el_texel_line *line, const el_texture *texture)
+void el_texel_line_make(el_texel_line *line, const el_sampler *sampler)
 {
-    el_sampler *const sampler = &line->sampler;
     const el_image *const image = &sampler->image;
-    el_sampler_make(sampler, texture);
+    line->sampler = sampler;
     const uint32_t width = image->width;
     const uint32_t height = image->height;
-    line->shows = image->has_key || image->format == EL_IMAGE_MASK || image->alpha != NULL;
     line->repeats = sampler->u.period == width && sampler->v.period == height && is_power(width) && is_power(height);
     if (line->repeats) {
         line->texels = el_texels_of(&(el_texture){.texels = image->pixels,
@@ -296,7 +295,7 @@ void el_texel_line_make(el_texel_line *line, const el_texture *texture)
                                                   .height_log2 = (uint8_t)(el_bit_length_u32(height) - 1)});
     }
     choose_loop(line);
-    const bool is_plain = line->repeats && image->format == EL_IMAGE_RGB565 && !line->shows;
+    const bool is_plain = line->repeats && image->format == EL_IMAGE_RGB565 && !sampler->is_open;
     if (is_plain) {
         line->way = sampler->smooth ? EL_TEXELS_SMOOTH : EL_TEXELS_PLAIN;
     } else if (sampler->smooth || !has_indices(image)) {

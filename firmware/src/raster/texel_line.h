@@ -9,7 +9,6 @@
 #include "raster/texture_walk.h"
 
 #if EL_WITH_MIXED && !EL_SMALL_CODE
-
 /* How they are found. */
 typedef enum el_texel_way {
     EL_TEXELS_PLAIN,    /* RGB565 that repeats with powers of two, all of which shows: as by fill_texture.c */
@@ -20,21 +19,20 @@ typedef enum el_texel_way {
 } el_texel_way;
 
 typedef struct el_texel_line {
+    const el_sampler *sampler;
     el_texel_way way;
     bool repeats; /* with powers of two, in both directions: `texels` are those */
-    bool shows;   /* not all of it shows */
     bool has_alpha_apart;
     uint8_t loop;
     el_texels texels;
-    el_sampler sampler;
 } el_texel_line;
 
-/* Pre: the texture is good (texture.h). */
-void el_texel_line_make(el_texel_line *line, const el_texture *texture);
+/* The sampler stays the caller's. */
+void el_texel_line_make(el_texel_line *line, const el_sampler *sampler);
 
-/* Draws the row's texels, EL_MAX_PIECE at most. Where line->shows, shown[] becomes how much of each shows, 0..256; of 0 the
- * colour is any. */
+/* Draws the row's texels, EL_MAX_PIECE at most. Where the sampler is open, shown[] becomes how much of each shows,
+ * 0..256; of 0 the colour is any. */
 void el_texel_line_draw(const el_texel_line *line, const el_texel_row *row, uint16_t *shown);
-
 #endif
+
 #endif

@@ -26,16 +26,10 @@ typedef struct el_corner {
     uint16_t rgb_q8[3];   /* Gouraud and textured times Gouraud: 0..255 in 8.8 */
 } el_corner;
 
-/* What a surface needs beside its shading. */
-enum {
-    EL_FINISH_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0, /* Gouraud and textured times Gouraud alone */
-    EL_FINISH_MIXED = EL_WITH_MIXED ? 32 : 0                       /* el_fill_mixed; not with overdraw */
-};
-
 typedef struct el_surface {
     el_shading shading;
     bool depth;            /* test and write depth; with overdraw, count what the test rejects: a debug view */
-    uint8_t finish;        /* EL_FINISH_ */
+    uint8_t finish;        /* EL_FINISH_; other bits have no meaning */
     uint16_t colour;       /* flat: RGB565 */
     uint8_t uv_error_log2; /* textured: u and v are within 2^-uv_error_log2 texels; 1..5 */
     uint8_t level;         /* textured and mixed: which of the material's chain of textures */
