@@ -22,7 +22,7 @@ typedef struct stretch {
 
 /* --- What they are made of ----------------------------------------------------------------------------------------------- */
 
-static inline void fill(uint16_t *colour, uint16_t value, uint32_t count)
+static inline void fill_line(uint16_t *colour, uint16_t value, uint32_t count)
 {
     const uint16_t *const end = colour + count;
     do {
@@ -41,31 +41,26 @@ static EL_APART void colour_plain(const el_mixed_brush *b, const stretch *s)
     } while (++colour != end);
 }
 
-static EL_APART void light_plain(const el_mixed_brush *b, const stretch *s)
+static EL_APART void shade_plain(const el_mixed_brush *b, const stretch *s)
 {
     el_light_row(&b->slopes, s->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS);
 }
 
-static EL_APART void light_dithered(const el_mixed_brush *b, const stretch *s)
+static EL_APART void shade_dithered(const el_mixed_brush *b, const stretch *s)
 {
     el_light_row(&b->slopes, s->y, s->x, s->colour, s->colour + s->count, EL_FILL_COLOURS | EL_FILL_DITHER);
 }
 
-/* Leading zeros of x >= 1, counted from `near` on, which is what they were at the pixel before. */
-static inline uint32_t leading_zeros(uint32_t x, uint32_t near)
+/* Leading zeros of x >= 1, which are `last` mostly: depth goes on by little from pixel to pixel. */
+static inline uint32_t zeros_like(uint32_t x, uint32_t last)
 {
-#if defined(EL_ZEROS_BY_TABLE)
-    while (x << near >> near != x) {
-        near--;
+#if !defined(__ARM_FEATURE_CLZ)
+    if (x >> (31U - last) == 1) {
+        return last;
     }
-    while (x << near < 0x80000000U) {
-        near++;
-    }
-    return near;
-#else
-    (void)near;
-    return el_leading_zeros(x);
 #endif
+    (void)last;
+    return el_leading_zeros(x);
 }
 
 static EL_APART void add_fog(const el_mixed_brush *b, const stretch *s)
@@ -79,7 +74,7 @@ static EL_APART void add_fog(const el_mixed_brush *b, const stretch *s)
     uint32_t leading = 0;
     do {
         const uint32_t nearness = fog->scale_q12 - ((uint32_t)(z >> 32) << 12);
-        leading = leading_zeros(nearness, leading);
+        leading = zeros_like(nearness, leading);
         const uint32_t alpha = el_fog_at_place(fog, el_fog_place_of(nearness, leading));
         if (alpha != 0) {
             *colour = el_rgb565_blend(*colour, fog_colour, alpha);
@@ -113,17 +108,15 @@ static EL_APART void blend(const el_mixed_brush *b, const stretch *s)
     }
 }
 
-/* The same of one colour: its share is a constant. */
-static EL_APART void blend_flat(const el_mixed_brush *b, const stretch *s)
+/* One colour over `count` pixels, its share a constant; two at a time, from a word's begin on. */
+static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colour, uint32_t alpha)
 {
-    const uint32_t rest = 256U - b->alpha;
-    const uint32_t r_share = (b->flat >> 11) * b->alpha * 0x10001U + 0x00800080U;
-    const uint32_t g_share = (b->flat >> 5 & 63U) * b->alpha * 0x10001U + 0x00800080U;
-    const uint32_t b_share = (b->flat & 31U) * b->alpha * 0x10001U + 0x00800080U;
-    uint16_t *pixel = s->pixels;
-    uint32_t count = s->count;
+    const uint32_t rest = 256U - alpha;
+    const uint32_t r_share = (colour >> 11) * alpha * 0x10001U + 0x00800080U;
+    const uint32_t g_share = (colour >> 5 & 63U) * alpha * 0x10001U + 0x00800080U;
+    const uint32_t b_share = (colour & 31U) * alpha * 0x10001U + 0x00800080U;
     if (((uintptr_t)pixel & 2U) != 0) {
-        *pixel = el_rgb565_blend(*pixel, b->flat, b->alpha);
+        *pixel = el_rgb565_blend(*pixel, colour, alpha);
         pixel++;
         count--;
     }
@@ -136,8 +129,13 @@ static EL_APART void blend_flat(const el_mixed_brush *b, const stretch *s)
         *word = (red >> 8 & 0x001F001FU) << 11 | (green >> 8 & 0x003F003FU) << 5 | (blue >> 8 & 0x001F001FU);
     }
     if ((count & 1U) != 0) {
-        pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], b->flat, b->alpha);
+        pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], colour, alpha);
     }
+}
+
+static inline void blend_flat(const el_mixed_brush *b, const stretch *s)
+{
+    blend_colour(s->pixels, s->count, b->flat, b->alpha);
 }
 
 static EL_SPECIALISED void show(const el_mixed_brush *b, const stretch *s, const uint16_t *shown, bool is_tested,
@@ -192,14 +190,14 @@ static void finish_colours(const el_mixed_brush *b, const stretch *s)
 {
     const unsigned look = b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER);
     if ((look & EL_FILL_TEXTURE) == 0 && look != EL_FILL_COLOURS) {
-        fill(s->colour, look == 0 ? b->flat : 0xFFFF, s->count);
+        fill_line(s->colour, look == 0 ? b->flat : 0xFFFF, s->count);
     }
     if ((look & EL_FILL_DITHER) != 0) {
-        light_dithered(b, s);
+        shade_dithered(b, s);
     } else if (look == EL_FILL_COLOURS) {
         colour_plain(b, s);
     } else if ((look & EL_FILL_COLOURS) != 0) {
-        light_plain(b, s);
+        shade_plain(b, s);
     }
     if (b->fog != NULL) {
         add_fog(b, s);
@@ -254,7 +252,7 @@ static inline void begin_runs(runs *r, const el_mixed_brush *b, const el_mixed_s
 }
 
 /* Where a stretch's colours are made: in their place, or in a line. */
-static inline uint16_t *place_of(const el_mixed_brush *b, uint16_t *pixels, uint16_t *line)
+static inline uint16_t *colours_of(const el_mixed_brush *b, uint16_t *pixels, uint16_t *line)
 {
     return b->way == EL_MIXED_OPAQUE ? pixels : line + ((uintptr_t)pixels >> 1 & 1U);
 }
@@ -268,7 +266,7 @@ static EL_APART void draw_plain(const el_mixed_brush *b, const el_mixed_span *sp
     while (r.begin < x_end) {
         const uint32_t count = r.end - r.begin < LINE ? r.end - r.begin : LINE;
         uint16_t *const pixels = span->row + r.begin;
-        const stretch s = {span->y, r.begin, count, pixels, NULL, place_of(b, pixels, line)};
+        const stretch s = {span->y, r.begin, count, pixels, NULL, colours_of(b, pixels, line)};
         draw_stretch(b, &s, NULL);
         r.begin += count;
         if (r.begin == r.end && r.begin < x_end) {
@@ -278,7 +276,7 @@ static EL_APART void draw_plain(const el_mixed_brush *b, const el_mixed_span *sp
 }
 
 /* Makes the piece from x on, along which texture coordinates are linear, in a span that begins `at` pixels before. */
-static inline uint32_t make_piece(el_texture_walk *walk, uint32_t x, uint32_t at, uint32_t x_end)
+static inline uint32_t piece_from(el_texture_walk *walk, uint32_t x, uint32_t at, uint32_t x_end)
 {
     const uint32_t last = x_end - 1U;
     if (x < last) {
@@ -315,11 +313,11 @@ static EL_APART void draw_textured(el_mixed_brush *b, const el_mixed_span *span,
     uint32_t x = begin;
     uint32_t drawn = r.begin; /* up to there */
     while (r.begin < x_end) {
-        const uint32_t piece_end = x + make_piece(&b->walk, x, x - begin, x_end);
+        const uint32_t piece_end = x + piece_from(&b->walk, x, x - begin, x_end);
         while (drawn < piece_end) {
             const uint32_t end = r.end < piece_end ? r.end : piece_end;
             uint16_t *const pixels = span->row + r.begin;
-            uint16_t *const colour = place_of(b, pixels, line);
+            uint16_t *const colour = colours_of(b, pixels, line);
             el_texture_walk_skip(&b->walk, drawn - x);
             draw_texels(b, colour + (drawn - r.begin), shown + (drawn - r.begin), end - drawn);
             x = drawn;
