@@ -18,7 +18,7 @@ from golden import GOLDEN, UPDATE, expect_golden, stored_crcs
 from sim_commands import Simulator
 
 CRCS = GOLDEN / "scenes.crc"
-SCENES = ("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4", "materials")
+SCENES = ("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4", "materials", "lamps")
 FRAMES = 120
 EVERY = 10
 
