@@ -109,33 +109,31 @@ static void make(void)
     }
 static const el_light key = {.direction_q30 = KEY_Q30, .ambient = 40, .diffuse = 215};
 
-/* The second row's are at x = 0 and y = 0 in its things' own places; see lamps_of. */
-static const el_lamp sun = {.kind = EL_LAMP_DIRECTIONAL, .colour = {255, 250, 220}, .direction_q30 = KEY_Q30};
-static const el_lamp bulb = {.kind = EL_LAMP_POINT,
-                             .colour = {255, 140, 60},
-                             .position_q16 = {TENTHS_Q16(-6), TENTHS_Q16(-2), TENTHS_Q16(8)},
-                             .half_q16 = TENTHS_Q16(8)};
-static const el_lamp torch = {.kind = EL_LAMP_SPOT,
-                              .colour = {120, 220, 255},
-                              .direction_q30 = {0, 0, -EL_UNIT_Q30},
-                              .position_q16 = {TENTHS_Q16(1), TENTHS_Q16(1), TENTHS_Q16(30)},
-                              .inner_q30 = 1069000000, /* cos 5.4 degrees */
-                              .outer_q30 = 1063000000};
+/* Those of the second row, in its things' own places, and which of them each has, a bit for each. */
+enum { SUN = 1, BULB = 2, TORCH = 4, LAMPS = 3 };
+static const el_lamp lamps[LAMPS] = {
+    {.kind = EL_LAMP_DIRECTIONAL, .colour = {255, 250, 220}, .direction_q30 = KEY_Q30},
+    {.kind = EL_LAMP_POINT,
+     .colour = {255, 140, 60},
+     .position_q16 = {TENTHS_Q16(-6), TENTHS_Q16(-2), TENTHS_Q16(8)},
+     .half_q16 = TENTHS_Q16(8)},
+    {.kind = EL_LAMP_SPOT,
+     .colour = {120, 220, 255},
+     .direction_q30 = {0, 0, -EL_UNIT_Q30},
+     .position_q16 = {TENTHS_Q16(1), TENTHS_Q16(1), TENTHS_Q16(30)},
+     .inner_q30 = 1069000000, /* cos 5.4 degrees, and 8.1 */
+     .outer_q30 = 1063000000},
+};
+static const uint8_t lamps_of[COLUMNS] = {SUN, BULB, TORCH, SUN | BULB, SUN, SUN | BULB | TORCH};
 
 #define OWN .colour = {220, 200, 190}, .ambient = {20, 20, 28}
 #define SHINY .shininess_log2 = 5, .specular = {220, 220, 220}
 
-static const el_lamp lamps[][3] = {{sun}, {bulb}, {torch}, {sun, bulb}, {sun}, {sun, bulb, torch}};
 static const el_lighting lightings[COLUMNS] = {
-    {OWN, .lamp_count = 1},
-    {OWN, .lamp_count = 1},
-    {OWN, .lamp_count = 1},
-    {SHINY, .lamp_count = 2, .colour = {0, 0, 0}},
-    {OWN, .lamp_count = 1, .emissive = {0, 90, 30}},
-    {OWN, SHINY, .lamp_count = 3},
+    {OWN}, {OWN}, {OWN}, {SHINY}, {OWN, .emissive = {0, 90, 30}}, {OWN, SHINY},
 };
-static const el_lighting one_sided = {OWN, .lamps = &sun, .lamp_count = 1};
-static const el_lighting two_sided = {OWN, .lamps = &sun, .lamp_count = 1, .two_sided = true};
+static const el_lighting one_sided = {OWN, .lamps = lamps, .lamp_count = 1};
+static const el_lighting two_sided = {OWN, .lamps = lamps, .lamp_count = 1, .two_sided = true};
 
 /* --- The scene ----------------------------------------------------------------------------------------------------------- */
 
@@ -204,13 +202,16 @@ static el_status draw_in_lamps(uint32_t frame, el_renderer *renderer)
     el_status status = EL_OK;
     for (unsigned i = 0; i < COLUMNS && status == EL_OK; i++) {
         const el_pose pose = pose_of(COLUMNS + i, frame);
-        el_lamp placed[COUNT(lamps[0])];
+        el_lamp placed[LAMPS];
         el_lighting lighting = lightings[i];
         lighting.lamps = placed;
-        for (unsigned k = 0; k < lighting.lamp_count; k++) {
-            placed[k] = lamps[i][k];
-            for (unsigned axis = 0; axis < 3; axis++) {
-                placed[k].position_q16[axis] += pose.position_q16[axis];
+        for (unsigned k = 0; k < LAMPS; k++) {
+            if ((lamps_of[i] >> k & 1U) != 0) {
+                el_lamp *const lamp = &placed[lighting.lamp_count++];
+                *lamp = lamps[k];
+                for (unsigned axis = 0; axis < 3; axis++) {
+                    lamp->position_q16[axis] += pose.position_q16[axis];
+                }
             }
         }
         status = draw_lit(renderer, COLUMNS + i, &lighting, &plain, &pose, i == COLUMNS - 1 ? &textured : &gouraud);
