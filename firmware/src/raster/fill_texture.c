@@ -25,34 +25,14 @@ static EL_SPECIALISED void draw_last(brush *b, uint16_t *colour)
 
 /* Lights the texels of pixels [x, x_end), one at least. They were drawn before, so that neither loop has to keep what the
  * other needs: together they have more than any core has registers, and pieces are shorter than what light goes along. */
-static EL_SPECIALISED void light_any(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
-{
-    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
-    const el_values step = b->slopes.per_column;
-    el_dither_row thresholds = el_dither_row_at(x, b->y);
-    uint16_t *pixel = row + x;
-    const uint16_t *const end = row + x_end;
-    if ((step.red | step.green | step.blue) == 0) {
-        /* A surface in one colour, or one that faces the light everywhere alike. */
-        do {
-            *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
-        } while (++pixel != end);
-        return;
-    }
-    do {
-        *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
-        el_values_add(&light, &step, kind);
-    } while (++pixel != end);
-}
-
 static __attribute__((noinline)) void light_plain(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
 {
-    light_any(b, row, x, x_end, EL_FILL_COLOURS);
+    el_light_row(&b->slopes, b->y, x, row + x, row + x_end, EL_FILL_COLOURS);
 }
 
 static __attribute__((noinline)) void light_dithered(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
 {
-    light_any(b, row, x, x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
+    el_light_row(&b->slopes, b->y, x, row + x, row + x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
 }
 
 static EL_SPECIALISED void light(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
