@@ -394,11 +394,12 @@ static void play(moment *m, const manner *how, outcome *o)
 
 /* --- What must hold ------------------------------------------------------------------------------------------------------- */
 
-/* Neither what is seen through nor what counts pixels: the pixel's depth is that of what is picked. */
+/* Neither what is seen through nor what counts pixels, nor wires, whose triangles are picked: the pixel's depth is that of
+ * what is picked. */
 static bool is_plain(const el_material *material)
 {
-    return (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && material->shading < EL_SHADE_OVERDRAW &&
-           (!EL_WITH_MIXED || (uint8_t)(material->alpha + 1U) <= 1U) &&
+    return (material->flags & (EL_MATERIAL_NO_DEPTH | EL_MATERIAL_WIRES)) == 0 &&
+           material->shading < EL_SHADE_OVERDRAW && (!EL_WITH_MIXED || (uint8_t)(material->alpha + 1U) <= 1U) &&
            (material->texture == NULL || material->texture->image == NULL);
 }
 
