@@ -227,8 +227,9 @@ def short_domain(machine: Machine) -> list[Any]:
     return [edge, *(machine.exactly("int32_t", n) for n in (ends.x0, ends.y0, ends.x1, ends.y1, ends.row))]
 
 
-def assume_cut_off(path: Path, ends: Ends, magnitude: Poly, reciprocal: Poly, cut_off: Poly, unit: int) -> None:
-    """A step is |dx| times a reciprocal, of which 2^31 - r dy is lacking, without a part below a unit."""
+def assume_cut_off(path: Path, ends: Ends, reciprocal: Poly, cut_off: Poly, unit: int) -> None:
+    """A step is dx times a reciprocal, of which 2^31 - r dy is lacking, without a part below a unit."""
+    magnitude = ends.dx if path.holds(ends.dx) else -ends.dx
     lacks = 2**31 - reciprocal * ends.dy
     path.assume_product(magnitude, lacks - 1)
     path.assume_product(magnitude, ends.dy - lacks)
@@ -254,7 +255,7 @@ def short_step_lemma(machine: Machine, step_q20: Number) -> Number:
     ((reciprocal, _),) = ((Poly({(atom,): 1}), of) for atom, (_, of) in path.quotients.items() if of.terms == dy.terms)
     right = path.holds(dx)
     magnitude = dx if right else -dx
-    assume_cut_off(path, ends, magnitude, reciprocal, dx * reciprocal - 2**11 * step, 2**11)
+    assume_cut_off(path, ends, reciprocal, dx * reciprocal - 2**11 * step, 2**11)
     narrow = machine.constant(machine.unit.constants["EL_EDGE_NARROW"])
     path.assume_product(narrow - magnitude, dy)
     e = dx * Q20 - step * dy

@@ -243,7 +243,7 @@ def step_lemma(machine: Machine, value: Number) -> Number:
         cut_off = dx * reciprocal - 2**13 * step
         path.prove(cut_off, "cut off downwards")
         path.prove(2**13 - 1 - cut_off, "by less than a unit")
-        assume_cut_off(path, ends, magnitude, reciprocal, cut_off, 2**13)
+        assume_cut_off(path, ends, reciprocal, cut_off, 2**13)
     e = dx * Q18 - step * dy
     for bound in (16 * e + 17 * dy, 17 * dy - 16 * e):
         path.prove(bound, "-17 dy <= 16 e <= 17 dy")
