@@ -117,6 +117,7 @@ int bench_main(void)
     failed |= measure(&el_materials_scene, LARGE_ARENA, DEFAULT_UV, 0, AGAIN);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, ONCE);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, PREPASS);
+    failed |= measure_own(mixed_scenes, mixed_scene_count, ONCE);
     failed |= measure_own(model_scenes, model_scene_count, ONCE);
     return failed;
 }

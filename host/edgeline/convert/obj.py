@@ -1,7 +1,7 @@
 """Wavefront OBJ and MTL as text: what a file says, checked, with the line of every face for later messages.
 
-Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd and map_Kd in materials. Groups, objects,
-smoothing groups, lines, points and free-form surfaces are passed over. No files are opened here.
+Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd, d, Tr, map_Kd and map_d in materials.
+Groups, objects, smoothing groups, lines, points and free-form surfaces are passed over. No files are opened here.
 """
 
 from __future__ import annotations
@@ -52,11 +52,15 @@ class ObjModel:
 
 @dataclass
 class Material:
-    """`colour` is Kd, 0 to 1; `image` the file name of map_Kd; `line` where that stands."""
+    """`colour` is Kd, `opacity` d, 0 to 1; `image` the file name of map_Kd; `line` where that stands; `clamps`: its
+    option -clamp on; `has_alpha`: map_d names the same file, whose alpha is how much of it shows."""
 
     colour: tuple[float, float, float] | None = None
+    opacity: float = 1.0
     image: str | None = None
     line: int = 0
+    clamps: bool = False
+    has_alpha: bool = False
 
 
 def statements(name: str, data: bytes) -> Iterator[tuple[int, list[str], str]]:
@@ -199,6 +203,7 @@ def map_file(words: list[str], rest: str) -> str:
 def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
     """The materials in `data` by their names. Raises EdgelineError with file and line."""
     materials: dict[str, Material] = {}
+    clear: dict[int, str] = {}
     current = Material()
     for line, words, rest in statements(name, data):
         if words[0] == "newmtl":
@@ -207,6 +212,14 @@ def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
             values = numbers(name, line, words, 1, 3)
             red, green, blue = (min(max(v, 0.0), 1.0) for v in (values * 3)[:3])
             current.colour = red, green, blue
+        elif words[0] in ("d", "Tr") and words[1:2] != ["-halo"]:
+            (value,) = numbers(name, line, words, 1, 1)
+            current.opacity = min(max(value if words[0] == "d" else 1.0 - value, 0.0), 1.0)
         elif words[0] == "map_Kd" and rest:
             current.image, current.line = map_file(words, rest), line
+            current.clamps = "-clamp on" in " ".join(words).lower()
+        elif words[0] == "map_d" and rest:
+            clear[id(current)] = map_file(words, rest)
+    for material in materials.values():
+        material.has_alpha = material.image is not None and clear.get(id(material)) == material.image
     return materials
