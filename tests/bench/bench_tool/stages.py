@@ -95,6 +95,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/frame/bands.c", "*", "bin"),
     ("firmware/src/frame/painter*.c", "*", "bin"),
     ("firmware/src/frame/workers.c", "*", "bin"),
+    ("firmware/src/frame/debug_view.c", "*", "bin"),
     ("firmware/src/frame/renderer.c", "*", "sink"),
     ("firmware/src/frame/quiet.c", "*", "sink"),
     ("firmware/src/geometry/aim.c", "*", REST),
