@@ -16,7 +16,8 @@ static const struct {
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm [--mesh FILE.elm ...]] [--size WxH] [--band N] [--arena BYTES]\n"
      "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N] [--threads N]\n"
-     "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats] [--depth-prepass]\n"
+     "               [--samples 1|4|8] [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats]\n"
+     "               [--depth-prepass]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
      "               [--shading flat|gouraud|textured]\n"
@@ -25,7 +26,7 @@ static const struct {
      "               them, and [--shading flat|gouraud|textured]: without textures and vertex colours, or one of them"},
     {"stream", el_command_stream,
      "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N] [--threads N]\n"
-     "               [--panel NAME [--rotation DEGREES]]\n"
+     "               [--samples 1|4|8] [--panel NAME [--rotation DEGREES]]\n"
      "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE [--max-baud RATE]]\n"
      "               --pty, --tcp: prints the port's name, waits for a host, takes its INPUT; hosts may come and go\n"
      "               --stdout: sends all frames to whoever reads, in codecs 0 and 1\n"

@@ -132,6 +132,8 @@ int main(void)
     draw("orthographic", EL_ORTHOGRAPHIC, &material);
     material.flags = EL_MATERIAL_NO_DEPTH;
     draw("no-depth", EL_PERSPECTIVE, &material);
+    material.flags = EL_MATERIAL_WIRES;
+    draw("wires", EL_PERSPECTIVE, &material);
     material = plain;
     material.light = &light;
     draw("lit", EL_PERSPECTIVE, &material);

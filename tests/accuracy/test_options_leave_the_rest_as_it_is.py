@@ -31,6 +31,7 @@ NEEDS = {
     },
     "DITHER": {"gouraud-dithered", "textured-gouraud-dithered"},
     "OVERDRAW": {"overdraw"},
+    "WIRES": {"wires"},
 }
 FLAT = tuple(NEEDS)
 
@@ -39,7 +40,7 @@ MIXED = {"blended", "fogged", "textured-smooth"}
 MIPMAPS = {"textured-smaller"}
 
 # Small code, but with every way of drawing.
-SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1")
+SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1", "-DEL_WITH_WIRES=1")
 
 # Name: status, CRC-32 of the frames, pixels counted.
 Drawn = dict[str, tuple[int, str, int]]
@@ -92,7 +93,7 @@ def test_a_mode_is_left_out(
 ) -> None:
     flags = [f"-DEL_WITH_{option}=0" for option in left_out]
     if small:
-        flags = [*SMALL, *flags]
+        flags = [*(flag for flag in SMALL if flag.replace("=1", "=0") not in flags), *flags]
     unknown: set[str] = set()
     if "TEXTURE" in left_out:
         flags = [flag for flag in flags if "MIPMAPS" not in flag] + ["-DEL_WITH_MIPMAPS=0"]
@@ -124,7 +125,8 @@ def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flags:
 
 def test_small_code_begins_without_mixing(nothing_hidden: Drawn, tmp_path: Path) -> None:
     drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1")
-    assert drawn == {name: way for name, way in nothing_hidden.items() if name not in MIXED | MIPMAPS}
+    assert drawn.pop("wires")[0] == ERROR_MATERIAL
+    assert drawn == {name: way for name, way in nothing_hidden.items() if name not in MIXED | MIPMAPS | {"wires"}}
 
 
 @pytest.mark.parametrize(("option", "ways"), [("MIXED", MIXED), ("MIPMAPS", MIPMAPS)])

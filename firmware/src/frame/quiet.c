@@ -58,6 +58,9 @@ static uint32_t hash_mesh(uint32_t hash, const el_mesh *mesh)
     hash = hash_pointer(hash, mesh->triangle_colours);
     hash = hash_pointer(hash, mesh->normals);
     hash = hash_pointer(hash, mesh->uvs);
+#if EL_WITH_WIRES
+    hash = hash_pointer(hash, mesh->edges);
+#endif
     hash = hash_pointer(hash, mesh->clusters);
     hash = hash_pair(hash, mesh->vertex_count, mesh->triangle_count);
     hash = hash_pair(hash, (uint8_t)mesh->scale_log2, mesh->radius);

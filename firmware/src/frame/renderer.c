@@ -20,6 +20,42 @@ static bool samples_are_valid(const el_config *config)
                                     !config->depth_prepass && config->view == EL_DEBUG_PICTURE);
 }
 
+static bool interlacing_is_valid(const el_config *config)
+{
+    return !config->interlaced ||
+           (EL_WITH_INTERLACED && config->height > 1 && config->samples <= 1 && config->reuse == 0 &&
+            !config->depth_prepass && config->view == EL_DEBUG_PICTURE && config->shading_off == 0 &&
+            (config->workers == NULL || config->workers->count == 1));
+}
+
+static bool sinks_take_gaps(const el_config *config)
+{
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        if (config->sinks[i] != NULL && !config->sinks[i]->takes_gaps) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The frame has so many lines. */
+static void set_lines(el_renderer *renderer, uint32_t lines)
+{
+    const uint32_t band_lines = renderer->config.band_lines;
+    renderer->lines = (uint16_t)lines;
+    renderer->band_count = (uint16_t)((lines + band_lines - 1U) / band_lines);
+}
+
+#if EL_WITH_INTERLACED
+/* The other half of the lines than in the frame before; the even ones first. */
+static void begin_field(el_renderer *renderer)
+{
+    const uint8_t field = renderer->list.field == EL_FIELD_EVEN ? EL_FIELD_ODD : EL_FIELD_EVEN;
+    renderer->list.field = field;
+    set_lines(renderer, (renderer->config.height + (field == EL_FIELD_EVEN ? 1U : 0U)) / 2U);
+}
+#endif
+
 el_status el_init(el_renderer *renderer, const el_config *config)
 {
     if (renderer == NULL || config == NULL || config->memory == NULL) {
@@ -29,8 +65,11 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
         config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
         (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS) ||
-        !samples_are_valid(config)) {
+        !samples_are_valid(config) || !interlacing_is_valid(config)) {
         return EL_ERROR_SIZE;
+    }
+    if (config->interlaced && !sinks_take_gaps(config)) {
+        return EL_ERROR_ARGUMENT;
     }
     const uint32_t width = config->width;
     const uint32_t lines = config->band_lines;
@@ -48,7 +87,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     memset(renderer, 0, sizeof *renderer);
     renderer->config = *config;
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
-    renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
+    set_lines(renderer, config->height);
     renderer->pass_bands = renderer->band_count;
 
     renderer->workers = (uint8_t)workers;
@@ -122,6 +161,11 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     renderer->in_frame = 1;
 #if EL_WITH_SAMPLES
     renderer->list.reach = el_samples_reach(el_renderer_samples(renderer));
+#endif
+#if EL_WITH_INTERLACED
+    if (renderer->config.interlaced) {
+        begin_field(renderer);
+    }
 #endif
     el_quiet_begin(renderer);
     begin_pass(renderer, 0);

@@ -124,6 +124,11 @@ typedef struct el_config {
      * depth pre-pass and no EL_SHADE_OVERDRAW, hidden triangles are found pixel by pixel, and each triangle is set up in each
      * band; a debug view shows the frame without. */
     uint8_t samples;
+    /* Each frame draws, and hands to the sinks, every other line alone, the even and the odd ones by turns: half of the
+     * wire, and of the pixels, for a picture that moves twice as smoothly over a slow wire. Two frames of what stands still
+     * make the whole picture, to the last bit. For sinks that take gaps (el_sink.takes_gaps); with one sample, one worker and
+     * without `reuse`, `depth_prepass` and `view`. */
+    bool interlaced;
     bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
                               and much lies behind other things; may be changed between frames too */
     void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
@@ -163,6 +168,7 @@ typedef struct el_renderer {
 #if EL_WITH_DEBUG_VIEWS
     uint8_t pass_draws; /* draws before this pass, modulo 256 */
 #endif
+    uint16_t lines; /* of this frame: the screen's, or a field's */
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
@@ -184,7 +190,8 @@ typedef struct el_renderer {
 } el_renderer;
 
 /* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. EL_ERROR_SIZE also for a view, a shading_off or a reuse that does not
- * exist or that base/options.h leaves out. */
+ * exist or that base/options.h leaves out, and for what does not go with `interlaced`; EL_ERROR_ARGUMENT where that has a
+ * sink that takes no gaps. */
 el_status el_init(el_renderer *renderer, const el_config *config);
 
 /* Starts a frame. EL_ERROR_CAMERA or EL_ERROR_RANGE for a camera that cannot be used; no frame has begun then. */

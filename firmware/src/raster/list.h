@@ -48,14 +48,14 @@ typedef enum el_record_kind {
 } el_record_kind;
 
 enum { EL_DRAW_MIRRORED = 1 }; /* front faces run clockwise on the screen */
-_Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED)) == 0, "they share a byte");
+_Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED | EL_FINISH_WIRES)) == 0, "they share a byte");
 
 /* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
     const el_mesh *mesh;
     const el_material *material;
     int16_t light_q14[3]; /* direction towards the light in model space */
-    uint8_t flags;        /* EL_DRAW_MIRRORED; with EL_WITH_MIXED EL_FINISH_ of its surfaces, too */
+    uint8_t flags;        /* EL_DRAW_MIRRORED, EL_FINISH_WIRES; with EL_WITH_MIXED EL_FINISH_ of its surfaces, too */
 #if EL_WITH_DEBUG_VIEWS
     uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
     uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */
@@ -89,18 +89,19 @@ static inline unsigned el_finish_of(const el_draw_state *draw, el_shading shadin
     (void)shading;
     return draw->flags;
 #else
-    return el_dithering_of(draw->material, shading);
+    return el_dithering_of(draw->material, shading) | (draw->flags & (unsigned)EL_FINISH_WIRES);
 #endif
 }
 
-static inline bool el_draws_mixed(const el_draw_state *draw)
+static inline bool el_draws_wires(const el_draw_state *draw)
 {
-#if EL_WITH_MIXED
-    return (draw->flags & EL_FINISH_MIXED) != 0;
-#else
-    (void)draw;
-    return false;
-#endif
+    return (draw->flags & EL_FINISH_WIRES) != 0;
+}
+
+/* Whether the draw's triangles are not drawn as all others are: mixed, or wires. */
+static inline bool el_is_drawn_apart(const el_draw_state *draw)
+{
+    return (draw->flags & (EL_FINISH_MIXED | EL_FINISH_WIRES)) != 0;
 }
 
 /* Whether a triangle of that doubled area (el_doubled_area, not 0) shows its back. */
@@ -146,7 +147,10 @@ typedef struct el_attributes {
 
 typedef struct el_record_clipped {
     el_record_perspective perspective;
-    el_attributes attributes[3];
+    union {
+        el_attributes attributes[3];
+        uint8_t edges; /* of wires: bit i, from corner i to the next one */
+    };
 } el_record_clipped;
 
 typedef struct el_list {
@@ -157,6 +161,7 @@ typedef struct el_list {
     bool is_shared;     /* triangles have shares */
     bool has_gaps;      /* el_list_keep_rows closes them */
     uint8_t reach;      /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+    uint8_t field;      /* el_field: rows are its lines */
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */

@@ -192,14 +192,18 @@ def _compare_with_each_other(frames: Iterable[Frame], verdicts: Verdicts) -> Non
         verdicts.check(crcs[one] == crcs[other], f"{one} is {crcs[one]}, {other} is {crcs[other]}")
 
 
+def _drawn(frame: Frame) -> str:
+    return frame.scene.removesuffix("-again")
+
+
 def compare_with_simulator(machines: Machines, frames: Iterable[Frame], verdicts: Verdicts) -> None:
     """`edgeline-sim render --crc` has the default texture error, so only frames with that are compared, of the scenes
-    that it knows."""
+    that it knows; what is drawn again is the same frame."""
     simulator = machines.simulator()
     known = [row.split()[0] for row in output_of([simulator, "list"]).splitlines()]
-    compared = [frame for frame in frames if frame.uv_error_log2 == 3 and frame.scene in known]
-    for scene in dict.fromkeys(frame.scene for frame in compared):
-        of_scene = [frame for frame in compared if frame.scene == scene]
+    compared = [frame for frame in frames if frame.uv_error_log2 == 3 and _drawn(frame) in known]
+    for scene in dict.fromkeys(map(_drawn, compared)):
+        of_scene = [frame for frame in compared if _drawn(frame) == scene]
         last = max(frame.number for frame in of_scene)
         crcs = output_of([simulator, "render", "--scene", scene, "--frames", str(last + 1), "--crc"]).split()
         for frame in of_scene:

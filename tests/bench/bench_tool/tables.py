@@ -134,8 +134,9 @@ def document(frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]], co
         "# What frames cost",
         f"Made by `{command}`; do not edit. Scenes of 320x240 in bands of 8 lines; million executed instructions, "
         "exact, in QEMU, of code that is compiled with -O2 for each core (a Cortex-M0+'s runs on an emulated "
-        "Cortex-M3). `-again` is the second of two equal frames; `layers` and `sheets` are ten layers over the whole "
-        "screen, flat and textured; models are those of shared/models.",
+        "Cortex-M3). `-again` is the second of two equal frames; `-4x` and `-8x` have so many samples per pixel, `-hud` "
+        "a HUD over them; `layers` and `sheets` are ten layers over the whole screen, flat and textured; models are "
+        "those of shared/models.",
         instructions(frames),
         "## Standard scenes, the best peers, and what is to be reached",
         against_peers(frames),
