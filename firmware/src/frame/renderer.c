@@ -20,6 +20,24 @@ static bool samples_are_valid(const el_config *config)
                                     !config->depth_prepass && config->view == EL_DEBUG_PICTURE);
 }
 
+static bool stripes_are_valid(const el_config *config)
+{
+    return config->stripes == EL_STRIPES_NONE ||
+           (EL_WITH_STRIPES && config->stripes < EL_STRIPES_COUNT && config->width <= EL_MAX_STRIPED);
+}
+
+static inline bool has_stripes(const el_config *config)
+{
+    return EL_WITH_STRIPES && config->stripes != EL_STRIPES_NONE;
+}
+
+/* What sinks see. */
+static uint16_t width_shown(const el_renderer *renderer)
+{
+    const uint16_t width = renderer->config.width;
+    return has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
+}
+
 el_status el_init(el_renderer *renderer, const el_config *config)
 {
     if (renderer == NULL || config == NULL || config->memory == NULL) {
@@ -29,10 +47,10 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
         config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
         (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS) ||
-        !samples_are_valid(config)) {
+        !samples_are_valid(config) || !stripes_are_valid(config)) {
         return EL_ERROR_SIZE;
     }
-    const uint32_t width = config->width;
+    const uint32_t width = has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
     const uint32_t lines = config->band_lines;
     if (config->workers != NULL &&
         (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
@@ -47,6 +65,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     memset(renderer, 0, sizeof *renderer);
     renderer->config = *config;
+    renderer->config.width = (uint16_t)width;
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
     renderer->band_count = (uint16_t)((config->height + lines - 1) / lines);
     renderer->pass_bands = renderer->band_count;
@@ -81,7 +100,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     for (unsigned i = 0; i < 2 * workers; i++) {
         el_painter *const painter = el_renderer_painter(renderer, i / 2);
         el_band *const band = &painter->bands[i % 2];
-        band->width = config->width;
+        band->width = (uint16_t)width;
         band->pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
         painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
         band->depth = painter->depth[i % 2];
@@ -114,10 +133,16 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     if (renderer == NULL || camera == NULL || renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const el_status status = el_view_make(&renderer->view, camera, renderer->config.width, renderer->config.height);
+    const uint16_t width = width_shown(renderer);
+    const el_status status = el_view_make(&renderer->view, camera, width, renderer->config.height);
     if (status != EL_OK) {
         return status;
     }
+#if EL_WITH_STRIPES
+    if (has_stripes(&renderer->config)) {
+        el_view_cut_pixels(&renderer->view, EL_STRIPES_PER_PIXEL);
+    }
+#endif
     memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
 #if EL_WITH_SAMPLES
@@ -128,7 +153,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
         if (sink != NULL) {
-            sink->begin(sink->context, renderer->config.width, renderer->config.height);
+            sink->begin(sink->context, width, renderer->config.height);
         }
     }
     return EL_OK;

@@ -2,6 +2,7 @@
 #include "raster/samples.h"
 
 #include "base/fixed.h"
+#include "base/rgb565.h"
 #include "raster/fill.h"
 
 #if EL_WITH_SAMPLES
@@ -11,36 +12,28 @@ const el_sample_point *el_sample_points(unsigned count)
     return el_known_sample_points(count);
 }
 
-/* RGB565 with a gap above each channel that takes the sum of eight. */
-enum { SPREAD = 0x07E0F81F };
-
-static EL_SPECIALISED uint32_t spread(uint32_t sample)
-{
-    return (sample << 16 | (sample & 0xFFFFU)) & SPREAD;
-}
-
 static EL_SPECIALISED void resolve(uint16_t *colour, uint16_t *depth, const uint32_t *samples, uint32_t count)
 {
     EL_SETTLE(samples); /* or both words would be found anew */
     static const uint8_t bits_of[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
     uint32_t nearest = samples[0];
-    uint32_t sum = spread(nearest);
+    uint32_t sum = el_rgb565_spread(nearest);
     const uint32_t mask = *colour;
     if (mask != 0) {
         const uint32_t outside = samples[1];
         const uint32_t inside = count == 4 ? bits_of[mask] : (uint32_t)bits_of[mask & 15U] + bits_of[mask >> 4];
-        const uint32_t rest = spread(outside);
+        const uint32_t rest = el_rgb565_spread(outside);
         sum = (sum - rest) * inside + rest * count;
         nearest = el_min_u32(nearest, outside);
     } else {
         for (uint32_t k = 1; k < count; k++) {
-            sum += spread(samples[k]);
+            sum += el_rgb565_spread(samples[k]);
             nearest = el_min_u32(nearest, samples[k]);
         }
     }
     /* Sums of eight are below 2^8, 2^8 and 2^9 from bits 0, 11 and 21 on. */
     const uint32_t half = count / 2U;
-    const uint32_t mean = (sum + (half | half << 11 | half << 21)) / count & SPREAD;
+    const uint32_t mean = (sum + (half | half << 11 | half << 21)) / count & EL_RGB565_SPREAD;
     *colour = (uint16_t)(mean | mean >> 16);
     *depth = (uint16_t)(nearest >> 16);
 }

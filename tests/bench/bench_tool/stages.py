@@ -71,6 +71,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/sampled.c", "*row*", "rows"),
     ("firmware/src/raster/sampled.c", "*", "pixels"),
     ("firmware/src/raster/samples.c", "*", "pixels"),
+    ("firmware/src/raster/stripes.c", "*", "pixels"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
     ("firmware/src/raster/sampler.c", "*", "pixels"),
     ("firmware/src/raster/texture.c", "*", "set-up"),
