@@ -22,16 +22,6 @@ static bool samples_are_valid(const el_config *config)
 }
 #endif
 
-static inline bool has_stripes(const el_config *config)
-{
-#if EL_WITH_STRIPES
-    return config->stripes != EL_STRIPES_NONE;
-#else
-    (void)config;
-    return false;
-#endif
-}
-
 static inline uint16_t bands_of(uint32_t lines, uint32_t band_lines)
 {
     return (uint16_t)((lines + band_lines - 1U) / band_lines);
@@ -40,7 +30,7 @@ static inline uint16_t bands_of(uint32_t lines, uint32_t band_lines)
 #if EL_WITH_INTERLACED
 static el_status check_interlacing(const el_config *config)
 {
-    if (config->height == 1 || el_config_samples(config) > 1 || has_stripes(config) || config->reuse != 0 ||
+    if (config->height == 1 || el_config_samples(config) > 1 || el_config_has_stripes(config) || config->reuse != 0 ||
         config->depth_prepass || config->view != EL_DEBUG_PICTURE || config->shading_off != 0 ||
         (config->workers != NULL && config->workers->count > 1)) {
         return EL_ERROR_SIZE;
@@ -67,7 +57,7 @@ static void begin_field(el_renderer *renderer)
 static uint16_t width_shown(const el_renderer *renderer)
 {
     const uint16_t width = renderer->config.width;
-    return has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
+    return el_config_has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
 }
 
 el_status el_init(el_renderer *renderer, const el_config *config)
@@ -96,7 +86,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_SIZE;
     }
 #endif
-    const uint32_t width = has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
+    const uint32_t width = el_config_has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
     const uint32_t lines = config->band_lines;
     if (config->workers != NULL &&
         (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
@@ -188,7 +178,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
         return status;
     }
 #if EL_WITH_STRIPES
-    if (has_stripes(&renderer->config)) {
+    if (el_config_has_stripes(&renderer->config)) {
         el_view_cut_pixels(&renderer->view, EL_STRIPES_PER_PIXEL);
     }
 #endif
