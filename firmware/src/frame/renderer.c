@@ -101,7 +101,9 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     memset(renderer, 0, sizeof *renderer);
     renderer->config = *config;
+#if EL_WITH_STRIPES
     renderer->config.width = (uint16_t)width;
+#endif
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
 #if EL_WITH_INTERLACED
     renderer->lines = config->height;
@@ -139,7 +141,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     for (unsigned i = 0; i < 2 * workers; i++) {
         el_painter *const painter = el_renderer_painter(renderer, i / 2);
         el_band *const band = &painter->bands[i % 2];
-        band->width = (uint16_t)width;
+        band->width = renderer->config.width;
         band->pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
         painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
         band->depth = painter->depth[i % 2];
@@ -172,8 +174,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     if (renderer == NULL || camera == NULL || renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const uint16_t width = width_shown(renderer);
-    const el_status status = el_view_make(&renderer->view, camera, width, renderer->config.height);
+    const el_status status = el_view_make(&renderer->view, camera, width_shown(renderer), renderer->config.height);
     if (status != EL_OK) {
         return status;
     }
@@ -197,7 +198,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
         if (sink != NULL) {
-            sink->begin(sink->context, width, renderer->config.height);
+            sink->begin(sink->context, width_shown(renderer), renderer->config.height);
         }
     }
     return EL_OK;
