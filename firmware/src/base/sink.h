@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/options.h"
 #include "base/stats.h"
 
 #ifdef __cplusplus
@@ -24,10 +25,23 @@ typedef struct el_band {
     uint16_t width;        /* pixels per line */
     uint16_t y;            /* first line on the screen */
     uint16_t lines;        /* lines in this band; the last band of a frame may have fewer than the others */
-    uint8_t gap;           /* lines of the screen between two of its lines: 0; 1 in an interlaced frame */
+#if EL_WITH_INTERLACED
+    uint8_t gap; /* see el_band_gap */
+#endif
     volatile uint8_t held[EL_MAX_SINKS]; /* not 0 while that sink has the band; each byte has one writer at a time,
                                             so an interrupt may clear it without a lock */
 } el_band;
+
+/* Lines of the screen between two of the band's: 0; 1 in an interlaced frame. */
+static inline unsigned el_band_gap(const el_band *band)
+{
+#if EL_WITH_INTERLACED
+    return band->gap;
+#else
+    (void)band;
+    return 0;
+#endif
+}
 
 /* Gives `band` back. `slot` is the number that `rows` was called with. Safe in interrupts, and on any core: who finds the
  * band free may write it. */
@@ -64,8 +78,10 @@ typedef struct el_sink {
     /* Called again and again while the renderer waits for a band: drive the transfer, or sleep until an interrupt.
      * May be NULL. */
     void (*wait)(void *context);
+#if EL_WITH_INTERLACED
     /* Bands may have gaps: their line i is line y + i * (1 + gap) of the screen. Without, there are no interlaced frames. */
     bool takes_gaps;
+#endif
 } el_sink;
 
 #ifdef __cplusplus

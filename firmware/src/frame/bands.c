@@ -42,6 +42,7 @@ OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, 
     el_count(&renderer->stats.bands, 1);
 }
 
+#if EL_WITH_INTERLACED
 /* Layers know of no gaps, and draw the same into bands of any height. */
 static EL_SELDOM void draw_layer_by_lines(const el_band *band, const el_layer *layer)
 {
@@ -50,11 +51,12 @@ static EL_SELDOM void draw_layer_by_lines(const el_band *band, const el_layer *l
         el_band line = {.pixels = band->pixels + at,
                         .depth = band->depth + at,
                         .width = band->width,
-                        .y = (uint16_t)(band->y + i * (1U + band->gap)),
+                        .y = (uint16_t)(band->y + i * (1U + el_band_gap(band))),
                         .lines = 1};
         layer->draw(layer->context, &line);
     }
 }
+#endif
 
 static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *layer)
 {
@@ -62,11 +64,13 @@ static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *la
         return;
     }
     el_band *const band = &painter->bands[painter->current];
-    if (EL_WITH_INTERLACED && band->gap != 0) {
+#if EL_WITH_INTERLACED
+    if (band->gap != 0) {
         draw_layer_by_lines(band, layer);
-    } else {
-        layer->draw(layer->context, band);
+        return;
     }
+#endif
+    layer->draw(layer->context, band);
 }
 
 #if EL_WITH_STRIPES

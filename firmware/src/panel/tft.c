@@ -315,7 +315,7 @@ static EL_SELDOM void send_lines(el_tft *panel, el_band *band, struct el_tft_loa
     }
     for (unsigned i = 0; i < band->lines; i++) {
         const bool is_last = i + 1U == band->lines;
-        set_window(panel, band->y + i * (1U + band->gap), &line);
+        set_window(panel, band->y + i * (1U + el_band_gap(band)), &line);
         send_pixels(panel, band->pixels + (size_t)i * band->width, band->width, is_last ? sent : nothing_to_release,
                     loan);
     }
@@ -329,7 +329,7 @@ static void rows(void *context, el_band *band, unsigned slot)
         el_band_release(band, slot);
         return;
     }
-    if (band->gap != 0) {
+    if (el_band_gap(band) != 0) {
         send_lines(panel, band, take_loan(panel, band, slot));
         return;
     }
@@ -387,11 +387,12 @@ static void wait(void *context)
 
 el_sink el_tft_sink(el_tft *panel)
 {
-    return (el_sink){.context = panel,
-                     .begin = begin,
-                     .rows = rows,
-                     .unchanged = EL_WITH_REUSE ? unchanged : NULL,
-                     .end = end,
-                     .wait = wait,
-                     .takes_gaps = true};
+    return (el_sink)
+    {
+        .context = panel, .begin = begin, .rows = rows, .unchanged = EL_WITH_REUSE ? unchanged : NULL, .end = end,
+#if EL_WITH_INTERLACED
+        .takes_gaps = true,
+#endif
+        .wait = wait
+    };
 }

@@ -136,7 +136,7 @@ static void take_field(el_stream *stream, const el_band *band)
 {
     stream->frame.mixed = true;
     for (uint32_t line = 0; line < band->lines && stream->frame.sending; line++) {
-        const uint32_t y = band->y + line * (1U + band->gap);
+        const uint32_t y = band->y + line * (1U + el_band_gap(band));
         keep_lines(stream, y);
         take_line(stream, band->pixels + (size_t)line * band->width, NULL, y);
         stream->frame.next_line = (uint16_t)(y + 1U);
@@ -168,7 +168,7 @@ static void rows(void *context, el_band *band, unsigned slot)
     if (stream->frame.sending) {
         const uint32_t begin_us = el_stream_now_us(stream);
         const uint32_t begin_cycles = now_cycles(stream);
-        if (band->gap != 0) {
+        if (el_band_gap(band) != 0) {
             take_field(stream, band);
         } else {
             take_lines(stream, band);
@@ -300,12 +300,12 @@ static void wait(void *context)
 
 el_sink el_stream_sink(el_stream *stream)
 {
-    return (el_sink){.context = stream,
-                     .begin = begin,
-                     .rows = rows,
-                     .unchanged = EL_WITH_REUSE ? unchanged : NULL,
-                     .end = end,
-                     .wait = wait,
-                     /* One way, every frame has all lines. */
-                     .takes_gaps = !stream->config.one_way};
+    return (el_sink)
+    {
+        .context = stream, .begin = begin, .rows = rows, .unchanged = EL_WITH_REUSE ? unchanged : NULL, .end = end,
+#if EL_WITH_INTERLACED
+        .takes_gaps = !stream->config.one_way, /* one way, every frame has all lines */
+#endif
+            .wait = wait
+    };
 }
