@@ -1,5 +1,5 @@
-"""Several samples per pixel, and pixels of three stripes: the same pixels for every band height, arena and number of cores;
-golden pictures; and how far pictures are from what 256 samples show."""
+"""Several samples per pixel, and pixels of three stripes: the same pixels for every band height, arena and number of
+cores; golden pictures; and how far pictures are from what 256 samples show."""
 
 from __future__ import annotations
 
