@@ -33,7 +33,10 @@ RESULTS = ROOT / "tests" / "bench" / "results"
 FOLDERS = ("firmware/src", "sim")
 HEADERS = ("edgeline.h", "panel/tft.h", "panel/ssd1306.h", "panel/ssd0323.h", "stream/session.h", "budget.h")
 STRUCTS = ("el_renderer", "el_tft", "el_oled", "el_stream")
-MACROS = ("EL_MEMORY_BYTES", "EL_SSD1306_MEMORY_BYTES", "EL_SSD0323_MEMORY_BYTES", "EL_STREAM_MEMORY_BYTES")
+MACROS = (
+    *("EL_MEMORY_BYTES", "EL_SAMPLES_BYTES"),
+    *("EL_SSD1306_MEMORY_BYTES", "EL_SSD0323_MEMORY_BYTES", "EL_STREAM_MEMORY_BYTES"),
+)
 VALUES = (
     *("EL_TRIANGLE_BYTES", "EL_LIST_MAX_BYTES", "EL_MAX_WIDTH", "EL_MAX_HEIGHT", "EL_MESH_MAX_VERTICES"),
     *("EL_SUBPIXEL_BITS", "EL_STREAM_WIRE_BYTES", "EL_BUDGET_STACK_BYTES", "EL_BUDGET_WORKERS_STACK_BYTES"),
@@ -186,9 +189,11 @@ def functions() -> tuple[str, list[str]]:
 
 
 def scene_summaries() -> dict[str, str]:
-    """What the tables of the scenes say of each."""
+    """What the tables of the scenes say of each; the benchmark has some with several samples per pixel, too."""
     text = "".join(path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("firmware/apps/*/*_scenes.c")))
-    return dict(re.findall(r'\{\s*"([\w-]+)",\s*"([^"]+)"', text))
+    found = dict(re.findall(r'\{\s*"([\w-]+)",\s*"([^"]+)"', text))
+    sampled = {f"{name}-{n}x": f"{name} with {n} samples per pixel" for name in found for n in (4, 8)}
+    return found | sampled
 
 
 def frames() -> str:

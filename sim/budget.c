@@ -20,7 +20,7 @@ typedef struct wish {
     const el_lcd_profile *panel; /* NULL: a controller that does not exist, with glass as large as the picture */
     el_rotation rotation;
     uint16_t width, height; /* of the picture */
-    long band, vertices, triangles, draws;
+    long band, vertices, triangles, draws, samples;
     bool textured;
     bool stream;
 } wish;
@@ -68,9 +68,21 @@ static bool mount(const char *command, const char *panel, const char *size, wish
     return true;
 }
 
+static bool parse_samples(const char *text, long *samples)
+{
+    if (!el_option_integer("--samples", text, 1, 8, samples)) {
+        return false;
+    }
+    if (*samples != 1 && *samples != 4 && *samples != 8) {
+        el_report("--samples takes 1, 4 or 8, not '%s'", text);
+        return false;
+    }
+    return true;
+}
+
 static bool parse(int argc, char **argv, const char *command, wish *w)
 {
-    enum { PANEL = 1, SIZE, BAND, VERTICES, TRIANGLES, DRAWS, SHADING, STREAM };
+    enum { PANEL = 1, SIZE, BAND, VERTICES, TRIANGLES, DRAWS, SHADING, SAMPLES, STREAM };
     static const struct option options[] = {
         {"panel", required_argument, NULL, PANEL},
         {"size", required_argument, NULL, SIZE},
@@ -79,13 +91,14 @@ static bool parse(int argc, char **argv, const char *command, wish *w)
         {"triangles", required_argument, NULL, TRIANGLES},
         {"draws", required_argument, NULL, DRAWS},
         {"shading", required_argument, NULL, SHADING},
+        {"samples", required_argument, NULL, SAMPLES},
         {"stream", no_argument, NULL, STREAM},
         {NULL, 0, NULL, 0},
     };
     const char *panel = NULL;
     const char *size = NULL;
     const char *band = NULL;
-    *w = (wish){.vertices = 600, .triangles = 1000, .draws = 4, .textured = true};
+    *w = (wish){.vertices = 600, .triangles = 1000, .draws = 4, .samples = 1, .textured = true};
     int which;
     optind = 0;
     opterr = 0;
@@ -112,6 +125,9 @@ static bool parse(int argc, char **argv, const char *command, wish *w)
             break;
         case SHADING:
             good = parse_shading(optarg, &w->textured);
+            break;
+        case SAMPLES:
+            good = parse_samples(optarg, &w->samples);
             break;
         case STREAM:
             w->stream = true;
@@ -149,7 +165,7 @@ typedef struct part {
     size_t bytes;
 } part;
 
-enum { ARENA_PARTS = 6, PARTS = 11 };
+enum { ARENA_PARTS = 7, PARTS = 12 };
 
 typedef struct account {
     part parts[PARTS]; /* those of the arena first */
@@ -178,7 +194,9 @@ static account make_account(const wish *w)
     const size_t least = EL_MIN_MEMORY_BYTES(width, height, band);
     const size_t wished = EL_MEMORY_BYTES(width, height, band, vertices, triangles, draws) -
                           triangles * (EL_TEXTURED_TRIANGLE_BYTES - triangle_bytes);
-    const size_t arena = EL_MAX_OF(least, wished);
+    const size_t samples = EL_SAMPLES_BYTES(width, band, (size_t)w->samples);
+    const size_t without = EL_MAX_OF(least, wished);
+    const size_t arena = without + samples;
 
     const size_t colour = 2 * EL_COLOUR_BAND_BYTES(width, band);
     const size_t depth = EL_DEPTH_BAND_BYTES(width, band);
@@ -195,7 +213,8 @@ static account make_account(const wish *w)
                 {"bins", "bins", bins},
                 {"triangles", w->textured ? "triangles, textured" : "triangles, not textured",
                  triangles * triangle_bytes},
-                {"draws", "draws, and slack", arena - colour - depth - beyond - bins - triangles * triangle_bytes},
+                {"draws", "draws, and slack", without - colour - depth - beyond - bins - triangles * triangle_bytes},
+                {"samples", "samples of a band", samples},
                 {"renderer", "el_renderer, this machine's", sizeof(el_renderer)},
                 {"panel_driver", "the panel's driver, this machine's", is_oled ? sizeof(el_oled) : sizeof(el_tft)},
                 {"panel_buffer", "the driver's memory", panel_buffer_bytes(w)},

@@ -26,7 +26,7 @@ static const struct {
      "               them, and [--shading flat|gouraud|textured]: without textures and vertex colours, or one of them"},
     {"stream", el_command_stream,
      "[--scene NAME] [--size WxH] [--band N] [--arena BYTES] [--uv-error N] [--threads N]\n"
-     "               [--panel NAME [--rotation DEGREES]]\n"
+     "               [--samples 1|4|8] [--panel NAME [--rotation DEGREES]]\n"
      "               (--pty | --tcp PORT | --stdout) [--frames N] [--baud RATE [--max-baud RATE]]\n"
      "               --pty, --tcp: prints the port's name, waits for a host, takes its INPUT; hosts may come and go\n"
      "               --stdout: sends all frames to whoever reads, in codecs 0 and 1\n"

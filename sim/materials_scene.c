@@ -189,9 +189,10 @@ static const el_lamp lamps[] = {
      .inner_q30 = 1058764063,
      .outer_q30 = 1042446551},
 };
+static el_highlight highlight;
 static const el_lighting lighting = {.lamps = lamps,
                                      .lamp_count = COUNT(lamps),
-                                     .shininess_log2 = 5,
+                                     .highlight = &highlight,
                                      .ambient = {50, 50, 60},
                                      .emissive = {0, 0, 12},
                                      .specular = {180, 180, 180},
@@ -301,6 +302,7 @@ static el_status draw(uint32_t frame, el_renderer *renderer)
     lay_floor();
     place_camera(frame, &camera);
     el_status status = el_fog_linear(&fog, &camera, SKY, TENTHS_Q16(80), TENTHS_Q16(220));
+    status = status == EL_OK ? el_highlight_make(&highlight, 32) : status;
     if (status == EL_OK) {
         status = draw_floor(renderer, &fog);
     }

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "files.h"
-#include "geometry/elm.h"
 #include "machine.h"
 #include "options.h"
 #include "report.h"
@@ -24,7 +23,13 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
 {
     static const char *const names[] = {"flat", "gouraud", "textured"};
     el_material *const material = &subject->material;
-    const bool has_texture = subject->texture.texels != NULL;
+    const el_texture *const texture = &subject->surface.levels[0];
+#if EL_WITH_MIXED
+    const bool has_texture = texture->texels != NULL || texture->image != NULL;
+    material->alpha = subject->surface.alpha;
+#else
+    const bool has_texture = texture->texels != NULL;
+#endif
     const bool is_faceted = subject->mesh.triangle_colours != NULL && subject->mesh.colours == NULL;
     material->shading = has_texture ? EL_SHADE_TEXTURED : is_faceted ? EL_SHADE_FLAT : EL_SHADE_GOURAUD;
     if (options->shading != NULL) {
@@ -42,8 +47,8 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
         el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", name);
         return false;
     }
-    material->flags = EL_MATERIAL_FLAT_MEAN;
-    material->texture = &subject->texture;
+    material->flags = (uint8_t)(EL_MATERIAL_FLAT_MEAN | subject->surface.flags);
+    material->texture = texture;
     material->light = subject->mesh.normals != NULL && material->shading != EL_SHADE_TEXTURED ? &light : NULL;
     return true;
 }
@@ -168,7 +173,7 @@ static bool open_mesh(el_subject *subject, const char *name, const el_subject_op
         return false;
     }
     subject->mesh_count++;
-    const el_elm_status status = el_elm_open(one->file, size, &one->mesh, &one->texture);
+    const el_elm_status status = el_elm_open_surface(one->file, size, &one->mesh, &one->surface);
     if (status != EL_ELM_OK) {
         el_report("%s: %s", name, el_elm_message(status));
         return false;

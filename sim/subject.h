@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "edgeline.h"
+#include "geometry/elm.h"
 #include "scene.h"
 
 enum { EL_SUBJECT_MESHES = 65 }; /* places for names of files; one stays free */
@@ -23,7 +24,7 @@ typedef struct el_subject_options {
 typedef struct el_subject_mesh {
     uint8_t *file;
     el_mesh mesh;
-    el_texture texture;
+    el_elm_surface surface;
     el_material material;
 } el_subject_mesh;
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 from PIL import ImageFont
 
-from edgeline.convert.files import write_whole
 from edgeline.convert.font import font_header, font_of, parse_characters, rasterise
 from edgeline.errors import EdgelineError
+from header_files import write_headers
 
 APPS = Path(__file__).resolve().parent
 
@@ -47,14 +47,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Makes the font headers of the pages in paint/.")
     parser.add_argument("-o", "--output", type=Path, default=APPS / "paint" / "fonts", metavar="FOLDER")
     folder: Path = parser.parse_args().output
-    try:
-        for name, text in font_headers().items():
-            write_whole(folder / f"{name}.h", text.encode())
-            print(f"{folder.name}/{name}.h: {len(text):,} characters")
-    except EdgelineError as error:
-        print(f"make_fonts: {error}", file=sys.stderr)
-        return error.exit_code
-    return 0
+    return write_headers("make_fonts", folder, font_headers)
 
 
 if __name__ == "__main__":

@@ -13,9 +13,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
-from mesh_sources.headers import EdgelineError, bench_headers, demo_headers, write_whole
+from header_files import write_headers
+from mesh_sources.headers import bench_headers, demo_headers
 
 APPS = Path(__file__).resolve().parent
 
@@ -31,15 +33,8 @@ def main() -> int:
             "--clusters goes with --bench and -o: the meshes in the tree are as the benchmark's scenes have them"
         )
     folder = args.output or APPS / ("bench" if args.bench else "demo") / "meshes"
-    try:
-        headers = bench_headers(args.bench, args.clusters) if args.bench else demo_headers()
-        for name, text in headers.items():
-            write_whole(folder / f"{name}.h", text.encode())
-            print(f"{folder.name}/{name}.h: {len(text):,} characters")
-    except EdgelineError as error:
-        print(f"make_meshes: {error}", file=sys.stderr)
-        return error.exit_code
-    return 0
+    make = partial(bench_headers, args.bench, args.clusters) if args.bench else demo_headers
+    return write_headers("make_meshes", folder, make)
 
 
 if __name__ == "__main__":

@@ -74,6 +74,7 @@ class Wish:
     triangles: int = 1000
     draws: int = 4
     shading: str = "textured"
+    samples: int = 1
     stream: bool = False
 
     def check(self) -> None:
@@ -114,7 +115,7 @@ def account(wish: Wish, pointer_bits: int = MICROCONTROLLER_BITS) -> Account:
     textured = wish.shading == "textured"
     triangle_bytes = facts.EL_TEXTURED_TRIANGLE_BYTES if textured else facts.EL_TRIANGLE_BYTES
     # The macro counts textured triangles, and never gives less than el_init accepts.
-    arena = max(
+    without_samples = max(
         facts.el_min_memory_bytes(*size, wish.band),
         facts.el_memory_bytes(*size, wish.band, wish.vertices, wish.triangles, wish.draws)
         - wish.triangles * (facts.EL_TEXTURED_TRIANGLE_BYTES - triangle_bytes),
@@ -127,7 +128,9 @@ def account(wish: Wish, pointer_bits: int = MICROCONTROLLER_BITS) -> Account:
         "bins": facts.el_bin_bytes(wish.height, wish.band),
         "triangles": wish.triangles * triangle_bytes,
     }
-    parts["draws"] = arena - sum(parts.values())
+    parts["draws"] = without_samples - sum(parts.values())
+    parts["samples"] = facts.el_samples_bytes(wish.width, wish.band, wish.samples)
+    arena = without_samples + parts["samples"]
     parts["renderer"] = structs["el_renderer"]
     parts["panel_driver"] = structs[panel.driver]
     parts["panel_buffer"] = panel.buffer_bytes(wish.band)
@@ -139,6 +142,9 @@ def account(wish: Wish, pointer_bits: int = MICROCONTROLLER_BITS) -> Account:
 def array_size(wish: Wish) -> str:
     """The arena's size as a program writes it."""
     size = f"{wish.width}, {wish.height}, {wish.band}"
+    if wish.samples > 1:
+        samples = f"EL_SAMPLES_BYTES({wish.width}, {wish.band}, {wish.samples})"
+        return f"{array_size(replace(wish, samples=1))} + {samples}"
     if account(wish).arena == facts.el_min_memory_bytes(wish.width, wish.height, wish.band):
         return f"EL_MIN_MEMORY_BYTES({size})"
     macro = f"EL_MEMORY_BYTES({size}, {wish.vertices}, {wish.triangles}, {wish.draws})"
@@ -170,6 +176,9 @@ def advice(wish: Wish, ram: int) -> list[str]:
     lower = first(replace(wish, band=band) for band in range(wish.band - 1, 0, -1))
     if lower is not None:
         ways.append(f"--band {lower.band} fits: {account(lower).total:,} bytes")
+    fewer = first(replace(wish, samples=samples) for samples in (4, 1) if samples < wish.samples)
+    if fewer is not None:
+        ways.append(f"--samples {fewer.samples} fits: {account(fewer).total:,} bytes; edges are less smooth")
     changes: dict[str, Wish] = {
         "": wish,
         "--band 1 ": replace(wish, band=1),
@@ -182,8 +191,9 @@ def advice(wish: Wish, ram: int) -> list[str]:
             ways.append(f"{change}--triangles {shorter.triangles} fits: {total:,} bytes; more take more passes")
             break
     if not ways:
-        least = account(replace(wish, band=1, triangles=0, vertices=0, draws=0)).total
-        smallest = f"--band 1 --triangles 0 --vertices 0 --draws 0 takes {least:,} bytes"
+        least = account(replace(wish, band=1, triangles=0, vertices=0, draws=0, samples=1)).total
+        alone = " --samples 1" if wish.samples > 1 else ""
+        smallest = f"--band 1 --triangles 0 --vertices 0 --draws 0{alone} takes {least:,} bytes"
         ways.append(f"{smallest}, and many passes" if least <= ram else f"nothing does: {smallest}")
     return ways
 

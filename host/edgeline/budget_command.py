@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -23,6 +24,8 @@ CORES = tuple(facts.FRAMES["S1"][1])
 SHADINGS = ("flat", "gouraud", "textured")
 SLOW_BYTE_CLOCKS = Fraction(17, 2)
 """Clocks per byte that are reported of an RP2040 with DMA in SPI mode 3: there are gaps between words."""
+SAMPLED = re.compile(r"-[48]x$")
+"""The names of scenes with several samples per pixel."""
 UART_BITS = 10
 """Of a byte on a UART, with its start and stop bit."""
 
@@ -33,6 +36,7 @@ ARENA_TITLES = {
     "bins": "bins of the display list",
     "triangles": "triangles of the display list",
     "draws": "its draws, and slack",
+    "samples": "{samples} samples per pixel of a band",
 }
 OTHER_TITLES = {
     "renderer": "el_renderer",
@@ -82,6 +86,7 @@ def report(options: argparse.Namespace, wish: Wish) -> dict[str, object]:
         "width": wish.width,
         "height": wish.height,
         "band": wish.band,
+        "samples": wish.samples,
         "pointer_bits": MICROCONTROLLER_BITS,
         "ram": found.ram,
         "arena": found.arena,
@@ -118,14 +123,19 @@ def _row(title: str, count: int) -> str:
 
 def _ram_lines(options: argparse.Namespace, wish: Wish, found: Account) -> list[str]:
     lines = ["RAM in bytes, of a 32-bit microcontroller"]
-    lines += [_row(title, found.ram[key]) for key, title in ARENA_TITLES.items() if found.ram[key]]
+    lines += [
+        _row(title.format(samples=wish.samples), found.ram[key])
+        for key, title in ARENA_TITLES.items()
+        if found.ram[key]
+    ]
     lines.append(_row("arena", found.arena))
     driver = PANELS[wish.panel].driver
     lines += [
         _row(title.format(driver=driver), found.ram[key]) for key, title in OTHER_TITLES.items() if found.ram[key]
     ]
     lines.append(_row("in all", found.total))
-    if found.arena - sum(found.ram[key] for key in ("colour_bands", "depth_band", "bins")) > facts.EL_LIST_MAX_BYTES:
+    fixed = ("colour_bands", "depth_band", "bins", "samples")
+    if found.arena - sum(found.ram[key] for key in fixed) > facts.EL_LIST_MAX_BYTES:
         lines.append(f"  a display list uses {facts.EL_LIST_MAX_BYTES:,} bytes at most; what is more stays unused")
     if options.ram is not None:
         spare = options.ram - found.total
@@ -169,7 +179,11 @@ def _stream_lines(options: argparse.Namespace, wish: Wish) -> list[str]:
 def _frame_lines(options: argparse.Namespace) -> list[str]:
     return [
         f"Instructions for a frame of 320x240 on {options.core}, as measured; each takes a cycle or more",
-        *(f"  {counts[options.core]:>12,}  {scene}: {summary}" for scene, (summary, counts) in facts.FRAMES.items()),
+        *(
+            f"  {counts[options.core]:>12,}  {scene}: {summary}"
+            for scene, (summary, counts) in facts.FRAMES.items()
+            if options.samples > 1 or not SAMPLED.search(scene)
+        ),
         f"  ({facts.FRAMES_SOURCE})",
     ]
 
@@ -197,6 +211,7 @@ def _print(options: argparse.Namespace, wish: Wish) -> None:
     print(
         f"{wish.panel}, picture of {wish.width}x{wish.height}, bands of {lines}; a pass of {wish.triangles:,} "
         f"{wish.shading} triangles, meshes of {wish.vertices:,} vertices at most, {wish.draws} draws"
+        + (f"; {wish.samples} samples per pixel" if wish.samples > 1 else "")
     )
     sections = (
         _ram_lines(options, wish, found),
@@ -240,6 +255,9 @@ def add_parser(subparsers: SubParsers) -> None:
         command.add_argument(
             f"--{name}", type=_number(0, most), default=default, metavar="N", help=f"{what}; default: {default}"
         )
+    command.add_argument(
+        "--samples", type=int, choices=(1, 4, 8), default=1, help="per pixel, for smooth edges; default: 1"
+    )
     command.add_argument("--stream", action="store_true", help="count the serial stream too")
     command.add_argument(
         "-b", "--baud", type=_number(1, 10**9), default=115200, metavar="RATE", help="its rate; default: 115200"
@@ -262,6 +280,7 @@ def _budget(options: argparse.Namespace) -> int:
         triangles=options.triangles,
         draws=options.draws,
         shading=options.shading,
+        samples=options.samples,
         stream=options.stream,
     )
     wish.check()

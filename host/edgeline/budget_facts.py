@@ -19,8 +19,8 @@ EL_TRIANGLE_BYTES = 24
 EL_VERTEX_BYTES = 10
 
 STRUCT_BYTES: dict[int, dict[str, int]] = {
-    32: {"el_renderer": 424, "el_tft": 72, "el_oled": 44, "el_stream": 1476},
-    64: {"el_renderer": 528, "el_tft": 112, "el_oled": 64, "el_stream": 1568},
+    32: {"el_renderer": 428, "el_tft": 72, "el_oled": 44, "el_stream": 1480},
+    64: {"el_renderer": 536, "el_tft": 112, "el_oled": 64, "el_stream": 1576},
 }
 """By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
 
@@ -211,9 +211,23 @@ def el_min_memory_bytes(width: int, height: int, band_lines: int) -> int:
     )
 
 
+def el_mixed_words(width: int) -> int:
+    """EL_MIXED_WORDS of raster/samples.h."""
+    return (width + 31) // 32
+
+
 def el_round_up_8(bytes: int) -> int:
     """EL_ROUND_UP_8 of frame/renderer.h."""
     return (bytes + 7) // 8 * 8
+
+
+def el_samples_bytes(width: int, band_lines: int, samples: int) -> int:
+    """EL_SAMPLES_BYTES of frame/renderer.h."""
+    return (
+        0
+        if samples < 2
+        else el_round_up_8(4 * el_mixed_words(width) * band_lines) + el_round_up_8(4 * samples * width * band_lines)
+    )
 
 
 def el_split_buffer_bytes(width: int) -> int:

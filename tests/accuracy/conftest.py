@@ -15,6 +15,7 @@ from typing import NoReturn
 
 import pytest
 
+from features_program import Features
 from sim_commands import Simulator
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -47,6 +48,25 @@ def simulator() -> Simulator:
 def checked_simulator() -> Simulator:
     """The simulator with sanitizers that EDGELINE_SIM_DEBUG names, else the one that EDGELINE_SIM names."""
     return _simulator_at("EDGELINE_SIM_DEBUG" if os.environ.get("EDGELINE_SIM_DEBUG") else "EDGELINE_SIM")
+
+
+def _features_beside(simulator: Simulator) -> Features:
+    path = simulator.path.parent / "tests" / "features" / "features"
+    if not path.is_file():
+        missing(f"no {path}: build with EDGELINE_TESTS=ON")
+    return Features(path)
+
+
+@pytest.fixture(scope="session")
+def features(simulator: Simulator) -> Features:
+    """The optimised program `features` beside the simulator."""
+    return _features_beside(simulator)
+
+
+@pytest.fixture(scope="session")
+def checked_features(checked_simulator: Simulator) -> Features:
+    """The program `features` with sanitizers, where there is one."""
+    return _features_beside(checked_simulator)
 
 
 @pytest.fixture(scope="session")

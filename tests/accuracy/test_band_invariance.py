@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from features_program import Features
 from sim_commands import Simulator, SimulatorError
 
 BANDS = [1, 2, 3, 7, 8, 16, 240]
@@ -97,3 +98,55 @@ def test_frames_differ(simulator: Simulator) -> None:
     """A scene that stands still, or a CRC of nothing, would make the other tests empty."""
     moving = [scene for scene in _scenes(simulator) if len(set(_crcs(simulator, scene))) == FRAMES]
     assert moving
+
+
+# --- features: every kind of material, light, layer and helper --------------------------------------------------------
+
+FEATURE_BANDS = (1, 3, 8, 17, 160)
+WAYS = {
+    "one core": [],
+    "one core, little memory": ["--more", "0"],
+    "two cores": ["--threads", "2"],
+    "two cores, some memory": ["--threads", "2", "--more", "2000"],
+}
+
+
+@pytest.mark.parametrize("samples", ["0", "4", "8"])
+def test_every_feature_is_drawn_the_same(checked_features: Features, samples: str) -> None:
+    """Colour and depth, in bands of any height, by one core and by two, in one pass and in several."""
+    option = ["--samples", samples]
+    expected = checked_features.draw(*option)
+    most_passes = dict.fromkeys(expected, 0)
+    for name, way in WAYS.items():
+        for band in FEATURE_BANDS:
+            drawn = checked_features.draw(*option, *way, "--band", str(band))
+            wrong = [feature for feature, is_ in drawn.items() if is_[:2] != expected[feature][:2]]
+            assert not wrong, f"{name}, bands of {band} lines, {samples} samples: {wrong}"
+            most_passes = {feature: max(most, drawn[feature].passes) for feature, most in most_passes.items()}
+    assert set(drawn) == set(expected)
+    assert sum(most >= 2 for most in most_passes.values()) > len(expected) / 2, "too much memory for several passes"
+
+
+def test_features_are_drawn_the_same_with_a_depth_pre_pass(checked_features: Features) -> None:
+    """All but those whose blended depth the pre-pass refuses."""
+    expected = checked_features.draw()
+    assert set(expected) - set(checked_features.draw("--prepass")) == {"alpha", "wires"}
+    for band in FEATURE_BANDS:
+        for name, is_ in checked_features.draw("--prepass", "--band", str(band)).items():
+            assert is_[:2] == expected[name][:2], (name, band)
+
+
+def test_two_interlaced_frames_are_the_whole_picture(checked_features: Features) -> None:
+    expected = checked_features.draw()
+    for band in FEATURE_BANDS:
+        for arena in ("0", "200000"):
+            drawn = checked_features.draw("--interlaced", "--band", str(band), "--more", arena)
+            assert {name: is_[:2] for name, is_ in drawn.items()} == {name: is_[:2] for name, is_ in expected.items()}
+
+
+def test_samples_show(features: Features) -> None:
+    """Where nothing were smoothed, the comparison of samples would be one of nothing."""
+    plain, smooth, smoother = (features.draw("--samples", samples) for samples in ("0", "4", "8"))
+    flat = {"sprites"}  # a layer alone
+    for name, drawn in smooth.items():
+        assert (len({plain[name].crc, drawn.crc, smoother[name].crc}) == 3) == (name not in flat), name

@@ -9,33 +9,26 @@ and look at the pictures before committing them.
 from __future__ import annotations
 
 import math
-import os
 import re
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
-from PIL import Image, ImageChops
+from PIL import Image
 
 from conftest import REPOSITORY
+from golden import GOLDEN, expect_crcs, expect_golden, stored_crcs
 from sim_commands import Simulator
 
-GOLDEN = REPOSITORY / "tests" / "golden"
 CRCS = GOLDEN / "views.crc"
 HEADER = REPOSITORY / "firmware" / "src" / "frame" / "debug_view.h"
 SOURCE = HEADER.with_suffix(".c")
 VIEWS = ("overdraw", "depth", "triangles", "bands", "rejected")
 SAME_IN_ALL_BANDS = ("overdraw", "depth", "triangles", "rejected")
-UPDATE = bool(os.environ.get("EDGELINE_UPDATE_GOLDEN"))
 
 
 def _crc(simulator: Simulator, scene: str, view: str, *arguments: str) -> str:
     return simulator.run_well("render", "--scene", scene, "--view", view, "--crc", *arguments).strip()
-
-
-def _stored() -> dict[str, list[str]]:
-    return {words[0]: words[1:] for words in map(str.split, CRCS.read_text(encoding="ascii").splitlines())}
 
 
 def test_the_simulator_names_its_views(simulator: Simulator) -> None:
@@ -44,31 +37,19 @@ def test_the_simulator_names_its_views(simulator: Simulator) -> None:
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_the_room_looks_as_it_did(simulator: Simulator, reports: Path, tmp_path: Path, view: str) -> None:
-    drawn, golden = tmp_path / "drawn.png", GOLDEN / f"view-{view}.png"
+    drawn = tmp_path / "drawn.png"
     simulator.run_well("render", "--scene", "room", "--view", view, "--png", str(drawn))
-    picture = Image.open(drawn).convert("RGB")
-    if UPDATE:
-        picture.save(golden, optimize=True)
-    difference = ImageChops.difference(picture, Image.open(golden).convert("RGB"))
-    if difference.getbbox() is not None:
-        folder = reports / "golden"
-        folder.mkdir(parents=True, exist_ok=True)
-        picture.save(folder / golden.name)
-        wrong = int((np.asarray(difference).max(axis=-1) > 0).sum())
-        pytest.fail(f"{wrong} pixels differ from {golden.name} within {difference.getbbox()}: see {folder}")
+    expect_golden(Image.open(drawn).convert("RGB"), f"view-{view}", reports)
 
 
 def test_every_scene_has_the_views_it_had(simulator: Simulator) -> None:
-    found = {scene: [_crc(simulator, scene, view) for view in VIEWS] for scene in simulator.scenes()}
-    if UPDATE:
-        CRCS.write_text("".join(f"{scene} {' '.join(crcs)}\n" for scene, crcs in found.items()), encoding="ascii")
-    assert found == _stored()
+    expect_crcs(CRCS, {scene: [_crc(simulator, scene, view) for view in VIEWS] for scene in simulator.scenes()})
 
 
 @pytest.mark.parametrize("view", SAME_IN_ALL_BANDS)
 def test_the_same_for_every_band_height_and_arena(simulator: Simulator, view: str) -> None:
     at = VIEWS.index(view)
-    for scene, crcs in _stored().items():
+    for scene, crcs in stored_crcs(CRCS).items():
         for arguments in (["--band", "1"], ["--band", "7", "--arena", "40000"], ["--band", "240"]):
             assert _crc(simulator, scene, view, *arguments) == crcs[at], f"{scene} {' '.join(arguments)}"
 

@@ -6,7 +6,6 @@ carried, and `look` judges that again. The faults at the end are put into such a
 
 from __future__ import annotations
 
-import os
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -14,12 +13,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import pytest
-from PIL import Image, ImageChops
+from PIL import Image
 
+from golden import expect_golden
 from sim_commands import Simulator
-
-GOLDEN = Path(__file__).resolve().parents[1] / "golden"
-UPDATE = bool(os.environ.get("EDGELINE_UPDATE_GOLDEN"))
 
 COLOUR = {"ili9341": (240, 320), "st7789": (240, 320), "st7789-240x240": (240, 240), "st7735": (128, 160)}
 GREY = {"ssd1306": (128, 64), "ssd0323": (128, 64)}
@@ -111,15 +108,7 @@ def test_grey_pictures_as_somebody_looked_at_them(
     """After a wanted change: EDGELINE_UPDATE_GOLDEN=1, and look at the pictures before committing them."""
     png = tmp_path / "drawn.png"
     _draw(checked_simulator, tmp_path, panel, 0, "--png", str(png))
-    golden = GOLDEN / f"demo-{panel}.png"
-    picture = Image.open(png).convert("RGB")
-    if UPDATE:
-        picture.save(golden, optimize=True)
-    if ImageChops.difference(picture, Image.open(golden).convert("RGB")).getbbox() is not None:
-        folder = reports / "golden"
-        folder.mkdir(parents=True, exist_ok=True)
-        picture.save(folder / golden.name)
-        pytest.fail(f"the picture differs from {golden.name}: see {folder}")
+    expect_golden(Image.open(png).convert("RGB"), f"demo-{panel}", reports)
 
 
 def _records(trace: bytes) -> list[Record]:

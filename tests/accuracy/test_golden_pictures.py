@@ -10,25 +10,19 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from PIL import Image, ImageChops
 
-from golden import GOLDEN, UPDATE, expect_golden, stored_crcs
+from golden import GOLDEN, UPDATE, expect_golden, rgb_of, stored_crcs
 from sim_commands import Simulator
 
 CRCS = GOLDEN / "scenes.crc"
-SCENES = ("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4", "materials")
+SCENES = (
+    *("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4"),
+    *("materials", "lamps", "wires"),
+)
 FRAMES = 120
 EVERY = 10
-
-
-def _rgb(rgb565: npt.NDArray[np.uint16]) -> Image.Image:
-    """Eight bits per channel as PNG wants them, the upper bits repeated below."""
-    wide = rgb565.astype(np.uint32)
-    red, green, blue = wide >> 11, wide >> 5 & 63, wide & 31
-    channels = [red << 3 | red >> 2, green << 2 | green >> 4, blue << 3 | blue >> 2]
-    return Image.fromarray(np.stack(channels, axis=-1).astype(np.uint8), "RGB")
 
 
 def _crcs(simulator: Simulator, scene: str) -> list[str]:
@@ -48,7 +42,7 @@ def test_first_frame(simulator: Simulator, reports: Path, tmp_path: Path, scene:
     png = tmp_path / "frame.png"
     done = simulator.run("render", "--scene", scene, "--raw", str(raw), "--png", str(png))
     assert done.returncode == 0, done.stderr
-    picture = _rgb(np.fromfile(raw, "<u2").reshape(240, 320))
+    picture = rgb_of(np.fromfile(raw, "<u2").reshape(240, 320))
     assert ImageChops.difference(picture, Image.open(png)).getbbox() is None, "--png and --raw differ"
     expect_golden(picture, scene, reports)
 

@@ -37,9 +37,10 @@ FLAT = tuple(NEEDS)
 # Ways that do not compile without the option: what they set is no member then.
 MIXED = {"blended", "fogged", "textured-smooth"}
 MIPMAPS = {"textured-smaller"}
+WIRES = {"wires"}
 
 # Small code, but with every way of drawing.
-SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1")
+SMALL = ("-DEL_SMALL_CODE=1", "-DEL_WITH_MIXED=1", "-DEL_WITH_MIPMAPS=1", "-DEL_WITH_WIRES=1")
 
 # Name: status, CRC-32 of the frames, pixels counted.
 Drawn = dict[str, tuple[int, str, int]]
@@ -92,7 +93,7 @@ def test_a_mode_is_left_out(
 ) -> None:
     flags = [f"-DEL_WITH_{option}=0" for option in left_out]
     if small:
-        flags = [*SMALL, *flags]
+        flags = [*(flag for flag in SMALL if flag.replace("=1", "=0") not in flags), *flags]
     unknown: set[str] = set()
     if "TEXTURE" in left_out:
         flags = [flag for flag in flags if "MIPMAPS" not in flag] + ["-DEL_WITH_MIPMAPS=0"]
@@ -124,10 +125,10 @@ def test_small_code_draws_the_same(nothing_hidden: Drawn, tmp_path: Path, flags:
 
 def test_small_code_begins_without_mixing(nothing_hidden: Drawn, tmp_path: Path) -> None:
     drawn = _draw(tmp_path, "-DEL_SMALL_CODE=1")
-    assert drawn == {name: way for name, way in nothing_hidden.items() if name not in MIXED | MIPMAPS}
+    assert drawn == {name: way for name, way in nothing_hidden.items() if name not in MIXED | MIPMAPS | WIRES}
 
 
-@pytest.mark.parametrize(("option", "ways"), [("MIXED", MIXED), ("MIPMAPS", MIPMAPS)])
+@pytest.mark.parametrize(("option", "ways"), [("MIXED", MIXED), ("MIPMAPS", MIPMAPS), ("WIRES", WIRES)])
 def test_without_members_the_rest_is_drawn(everything: Drawn, tmp_path: Path, option: str, ways: set[str]) -> None:
     drawn = _draw(tmp_path, f"-DEL_WITH_{option}=0")
     assert drawn == {name: way for name, way in everything.items() if name not in ways}
@@ -141,7 +142,9 @@ def test_small_code_takes_what_it_begins_without(
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 
-@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES"])
+@pytest.mark.parametrize(
+    "option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES", "INTERLACED"]
+)
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
     assert _draw(tmp_path, f"-DEL_WITH_{option}=0") == everything
 

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from golden import expect_golden
+from golden import expect_golden, rgb_of
 from sim_commands import Simulator
-from test_golden_pictures import _rgb as rgb_picture
 
 SCENES = ("S1", "S2", "S2-no-depth", "S3", "teapot", "room", "solid", "field")
 WIDTH, HEIGHT, FINER = 120, 90, 16
@@ -45,7 +44,7 @@ def test_every_band_arena_and_core_draws_the_same(simulator: Simulator, scene: s
 @pytest.mark.parametrize(("scene", "samples"), [("S1", 4), ("S3", 8), ("solid", 4), ("room", 8)])
 def test_golden(simulator: Simulator, reports: Path, scene: str, samples: int) -> None:
     picture = simulator.render("--scene", scene, f"--samples={samples}").colour[0]
-    expect_golden(rgb_picture(picture), f"{scene}-{samples}-samples", reports)
+    expect_golden(rgb_of(picture), f"{scene}-{samples}-samples", reports)
 
 
 @pytest.mark.parametrize(("scene", "order"), [("S1", "rgb"), ("solid", "bgr")])

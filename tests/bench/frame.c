@@ -57,6 +57,7 @@ el_status bench_frame(const el_scene *scene, uint32_t number, const bench_settin
         .uv_error_log2 = setting->uv_error_log2,
         .depth_prepass = setting->depth_prepass,
         .samples = setting->samples,
+        .over = setting->over,
         .memory = setting->arena,
         .memory_bytes = setting->arena_bytes,
         .sinks = {&sink},

@@ -12,8 +12,9 @@ typedef struct bench_setting {
     uint16_t band_lines;
     uint8_t uv_error_log2;
     bool depth_prepass;
-    uint8_t samples; /* per pixel; 0 is 1 */
-    bool again;      /* the same frame has been drawn before, unmeasured */
+    uint8_t samples;      /* per pixel; 0 is 1 */
+    bool again;           /* the same frame has been drawn before, unmeasured */
+    const el_layer *over; /* or NULL */
     void *arena;
     uint32_t arena_bytes;
 } bench_setting;

@@ -1,16 +1,17 @@
-/* Whole frames (frame.h) of the standard scenes, the demo's and the benchmark's own.
+/* Whole frames (frame.h) of the standard scenes, the demo's, the simulator's of all materials, and the benchmark's own.
  *
  * One line per measurement:
  *
  *     SCENE ARENA UV FRAME crc CRC passes N peak BYTES collecting BYTES colour BYTES depth BYTES bins BYTES list BYTES
  *         ns NANOSECONDS
  *
- * in one line. SCENE-again is the second of two equal frames, SCENE-prepass is drawn depth first, SCENE-4x and SCENE-8x with so many samples per
- * pixel. `peak` is the arena's
- * largest use, `collecting` its largest one before the bands of the longest list are drawn; two bands of colour, one of
- * depth, the bins and the display list have the bytes that are named, at either time. Beside them lie vertices while
- * triangles are collected, and states of triangles while they are drawn. */
+ * in one line. SCENE-again is the second of two equal frames, SCENE-prepass is drawn depth first, SCENE-4x and SCENE-8x
+ * with so many samples per pixel, SCENE-hud with a HUD over it. `peak` is the arena's largest use, `collecting` its largest
+ * one before the bands of the longest list are drawn; two bands of colour, one of depth, the bins and the display list
+ * have the bytes that are named, at either time. Beside them lie vertices while triangles are collected, and states of
+ * triangles while they are drawn. */
 #include "frame.h"
+#include "materials_scene.h"
 #include "own_scenes.h"
 #include "platform.h"
 
@@ -23,13 +24,13 @@ enum {
 
 static _Alignas(8) uint8_t arena[LARGE_ARENA];
 
-typedef enum way { ONCE, AGAIN, PREPASS, SAMPLES_4, SAMPLES_8 } way;
+typedef enum way { ONCE, AGAIN, PREPASS, SAMPLES_4, SAMPLES_8, UNDER_HUD } way;
 
 /* Returns 0, or 1 when the frame could not be drawn. */
 static int measure(const el_scene *scene, uint32_t arena_bytes, uint8_t uv_error_log2, uint32_t frame, way how)
 {
-    static const char *const suffixes[] = {
-        [ONCE] = "", [AGAIN] = "-again", [PREPASS] = "-prepass", [SAMPLES_4] = "-4x", [SAMPLES_8] = "-8x"};
+    static const char *const suffixes[] = {[ONCE] = "",         [AGAIN] = "-again",  [PREPASS] = "-prepass",
+                                           [SAMPLES_4] = "-4x", [SAMPLES_8] = "-8x", [UNDER_HUD] = "-hud"};
     static el_renderer renderer;
     const bench_setting setting = {
         .band_lines = BAND_LINES,
@@ -39,6 +40,7 @@ static int measure(const el_scene *scene, uint32_t arena_bytes, uint8_t uv_error
         .samples = how == SAMPLES_4   ? 4
                    : how == SAMPLES_8 ? 8
                                       : 1,
+        .over = how == UNDER_HUD ? &bench_hud : NULL,
         .arena = arena,
         .arena_bytes = arena_bytes,
     };
@@ -111,8 +113,11 @@ int bench_main(void)
         failed |= measure(el_scene_find(sampled[i]), LARGE_ARENA, DEFAULT_UV, 0, SAMPLES_4);
     }
     failed |= measure(el_scene_find("S1"), LARGE_ARENA, DEFAULT_UV, 0, SAMPLES_8);
+    failed |= measure(el_scene_find("S1"), LARGE_ARENA, DEFAULT_UV, 0, UNDER_HUD);
+    failed |= measure(&el_materials_scene, LARGE_ARENA, DEFAULT_UV, 0, AGAIN);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, ONCE);
     failed |= measure_own(overdraw_scenes, overdraw_scene_count, PREPASS);
+    failed |= measure_own(mixed_scenes, mixed_scene_count, ONCE);
     failed |= measure_own(model_scenes, model_scene_count, ONCE);
     return failed;
 }

@@ -1,5 +1,6 @@
 /* The reader of .elm on any bytes, and the renderer on what it accepts: an accepted mesh must be safe to draw. A CRC is
- * what random bytes never have, so the first byte says whether size and CRC are made right before. */
+ * what random bytes never have, so the first byte says whether version, size
+ * and CRC are made right before. */
 #include "base/crc32.h"
 #include "picture.h"
 
@@ -12,8 +13,10 @@ static void put_u32(uint8_t *to, uint32_t value)
     }
 }
 
-static void draw(const el_mesh *mesh, const el_texture *texture, uint8_t how)
+static void draw(const el_mesh *mesh, const el_elm_surface *surface, uint8_t how)
 {
+    const el_texture *const texture = &surface->levels[0];
+    const bool has_texture = texture->texels != NULL || texture->image != NULL;
     static picture p;
     p.width = 48;
     p.height = 32;
@@ -34,8 +37,9 @@ static void draw(const el_mesh *mesh, const el_texture *texture, uint8_t how)
     FUZZ_EXPECT(el_camera_look_at(&camera, eye, target, up) == EL_OK);
     const el_light light = {.direction_q30 = {0, EL_UNIT_Q30, 0}, .ambient = 90, .diffuse = 200};
     const el_material material = {
-        .shading = (uint8_t)(texture->texels != NULL ? EL_SHADE_TEXTURED_GOURAUD : how % 2),
+        .shading = (uint8_t)(has_texture ? EL_SHADE_TEXTURED_GOURAUD : how % 2),
         .flags = EL_MATERIAL_TWO_SIDED,
+        .alpha = surface->alpha,
         .texture = texture,
         .light = mesh->normals != NULL ? &light : NULL,
     };
@@ -64,15 +68,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     memcpy(file, bytes + 1, size);
     if ((how & 128) != 0 && size >= HEADER) {
         memcpy(file, "ELM\x1a\1\0", 6);
+        file[4] = (how & 64) != 0 ? 2 : 1;
         put_u32(file + SIZE_AT, (uint32_t)size);
         put_u32(file + CRC_AT, el_crc32(0, file + CRC_FROM, size - CRC_FROM));
     }
     el_mesh mesh;
-    el_texture texture;
-    const el_elm_status status = el_elm_open(file, size, &mesh, &texture);
+    el_elm_surface surface;
+    const el_elm_status status = el_elm_open_surface(file, size, &mesh, &surface);
     FUZZ_EXPECT(status <= 0 && el_elm_message(status)[0] != '\0');
     if (status == EL_ELM_OK) {
-        draw(&mesh, &texture, how & 127);
+        draw(&mesh, &surface, how & 127);
     }
     free(file);
     return 0;

@@ -12,10 +12,11 @@ import pytest
 
 from conftest import missing
 from edgeline.convert import command, preview
-from edgeline.convert.mesh import Soup, Texture
+from edgeline.convert.mesh import Soup
 from edgeline.convert.model import source_from
 from edgeline.convert.obj import Material, ObjModel
 from edgeline.convert.source import Picture, soup_of, with_normals
+from edgeline.convert.texels import Texture
 from edgeline.errors import EdgelineError
 
 

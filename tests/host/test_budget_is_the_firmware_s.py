@@ -58,6 +58,7 @@ def wishes(count: int) -> list[Wish]:
                 triangles=any_of(rng, 65535),
                 draws=any_of(rng, 65535),
                 shading=rng.choice(SHADINGS),
+                samples=(1, 4, 8)[i // len(PANELS) % 3],
                 stream=rng.random() < 0.5,
             )
         )
@@ -83,6 +84,7 @@ def test_each_macro_has_the_compiler_s_value(bits: int) -> None:
     rng = random.Random(SEED)
     # What each parameter may be; the products are far from what 32 bits hold.
     most = {"width": 2040, "height": 2040, "band_lines": 2040, "bytes": 10**8, "a": 10**8, "b": 10**8}
+    most["samples"] = 8
     least = {"width": 1, "height": 1, "band_lines": 1}
     arrays, values = {}, {}
     for macro in re.findall(r'^    """(EL_\w+) of ', make_budget.OUTPUT.read_text(encoding="utf-8"), re.MULTILINE):
@@ -120,13 +122,13 @@ def test_the_simulator_has_the_same_account(simulator: str) -> None:
             simulator,
             *("--panel", wish.panel, "--size", f"{wish.width}x{wish.height}", "--band", str(wish.band)),
             *("--vertices", str(wish.vertices), "--triangles", str(wish.triangles), "--draws", str(wish.draws)),
-            *("--shading", wish.shading, *(["--stream"] if wish.stream else [])),
+            *("--shading", wish.shading, "--samples", str(wish.samples), *(["--stream"] if wish.stream else [])),
         )
         mine = account(wish, told["pointer_bits"])
         assert told["ram"] == mine.ram, wish
         assert (told["arena"], told["total"]) == (mine.arena, mine.total), wish
         assert told["wire"] == {"pixel_bytes": mine.pixel_bytes, "command_bytes": mine.command_bytes}, wish
-        assert sum(list(told["ram"].values())[:6]) == told["arena"], wish
+        assert sum(list(told["ram"].values())[:7]) == told["arena"], wish
 
 
 def test_the_panels_are_the_simulator_s(simulator: str) -> None:
@@ -142,7 +144,7 @@ def test_what_is_advised_fits_and_one_more_does_not() -> None:
     kinds = set()
     for wish in wishes(4 * ROUNDS):
         total = account(wish).total
-        least = account(replace(wish, band=1, triangles=0, vertices=0, draws=0)).total
+        least = account(replace(wish, band=1, triangles=0, vertices=0, draws=0, samples=1)).total
         ram = rng.choice((total - 1, rng.randint(min(2000, total - 1), total - 1)))
         for way in advice(wish, ram):
             kinds.add(re.sub(r"\d[\d,]*", "N", way))
@@ -152,6 +154,8 @@ def test_what_is_advised_fits_and_one_more_does_not() -> None:
             assert (bytes_told <= ram) == ("nothing does" not in way)
             if "nothing does" in way:
                 assert bytes_told == least
+            elif "less smooth" in way:
+                assert all(account(replace(wish, samples=n)).total > ram for n in (4, 8) if changed.samples < n)
             elif "--triangles" not in way:
                 assert account(replace(changed, band=changed.band + 1)).total > ram
             elif changed.triangles < wish.triangles and "many passes" not in way:
@@ -162,5 +166,8 @@ def test_what_is_advised_fits_and_one_more_does_not() -> None:
         "--band N --triangles N fits: N bytes; more take more passes",
         "--band N --vertices N --triangles N fits: N bytes; more take more passes",
         "--band N --triangles N --vertices N --draws N takes N bytes, and many passes",
+        "--band N --triangles N --vertices N --draws N --samples N takes N bytes, and many passes",
         "nothing does: --band N --triangles N --vertices N --draws N takes N bytes",
+        "nothing does: --band N --triangles N --vertices N --draws N --samples N takes N bytes",
+        "--samples N fits: N bytes; edges are less smooth",
     }

@@ -56,7 +56,7 @@ def test_clusters_change_no_pixel(simulator: str, tmp_path: Path, mesh: Mesh) ->
     whole, plain = tmp_path / "whole.elm", tmp_path / "plain.elm"
     whole.write_bytes(elm.encode(clustered))
     plain.write_bytes(elm.encode(replace(clustered, clusters=None)))
-    # Triangles that share no vertex are looked at by the sides of the view, a stretch at a time, which a cluster may end.
+    # Triangles that share no vertex are looked at by the view's sides, a stretch at a time, which a cluster may end.
     is_loose = len(mesh.positions) == 3 * len(mesh.triangles)
     slack = 3 * len(clustered.clusters) if is_loose else 0
     outside = turned = 0

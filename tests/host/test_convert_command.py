@@ -13,7 +13,8 @@ from PIL import Image
 
 from converting import convert, refused
 from edgeline.convert import elm
-from edgeline.convert.texture import load_texture, rgb565
+from edgeline.convert.palette import rgb565
+from edgeline.convert.texture import load_pixels
 
 QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
 FACE = "f 1/1 2/2 3/3 4/4\n"
@@ -94,9 +95,9 @@ def test_scale_and_centre(quad: Path) -> None:
 
 def test_headers_name_the_command_that_makes_them_again(quad: Path) -> None:
     output = quad.with_suffix(".h")
-    words = "--crease 12.3456789 --up z --scale 0.5 --centre --triangles 1234567"
-    convert(quad, "-o", output, *words.split())
-    assert f"Made by: edgeline convert quad.obj {words}\n" in output.read_text()
+    for words in ("--crease 12.3456789 --up z --scale 0.5 --centre --triangles 1234567", "--crease 0 --mipmaps"):
+        convert(quad, "-o", output, *words.split())
+        assert f"Made by: edgeline convert quad.obj {words}\n" in output.read_text()
 
 
 def test_a_missing_library_is_only_noted(quad: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -113,12 +114,12 @@ def test_missing_and_broken_files(quad: Path) -> None:
     (folder / "text.png").write_text("no image")
     Image.effect_noise((64, 64), 50).save(folder / "cut.png")
     (folder / "cut.png").write_bytes((folder / "cut.png").read_bytes()[:900])
-    (folder / "odd.elm").write_bytes(b"ELM\x1a\x02\0\0\0" + bytes(40))
+    (folder / "odd.elm").write_bytes(b"ELM\x1a\x03\0\0\0" + bytes(40))
     assert refusal(folder / "no.obj", "-o", output) == f"cannot read {folder / 'no.obj'}: No such file or directory"
     assert refusal(quad, "-o", output, "--texture", folder / "no.png").startswith("cannot read the image ")
     assert "is no image that can be read" in refusal(quad, "-o", output, "--texture", folder / "text.png")
     assert "image" in refusal(quad, "-o", output, "--texture", folder / "cut.png")
-    assert "has version 2.0" in refusal(folder / "odd.elm", "-o", output)
+    assert "has version 3.0" in refusal(folder / "odd.elm", "-o", output)
     (folder / "textures" / "wood.png").unlink()
     assert refusal(quad, "-o", output).startswith("quad.mtl:3: map_Kd: cannot read the image ")
     assert output.read_text() == "precious"
@@ -191,4 +192,4 @@ def test_images_become_powers_of_two(
 ) -> None:
     for mode in ("RGB", "RGBA", "L", "P", "1"):
         Image.new(mode, size).save(tmp_path / "image.png")
-        assert load_texture(tmp_path / "image.png", limit).texels.shape == texels[::-1]
+        assert load_pixels(tmp_path / "image.png", limit).rgb.shape[:2] == texels[::-1]

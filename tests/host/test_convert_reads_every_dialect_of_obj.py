@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from converting import soup_from
-from edgeline.convert.mesh import Texture, quantise
+from edgeline.convert.mesh import quantise
 from edgeline.convert.obj import NONE, ObjModel, parse_mtl, parse_obj
+from edgeline.convert.texels import Texture
 from edgeline.errors import EdgelineError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

@@ -12,9 +12,10 @@ import pytest
 
 from converting import convert, library
 from edgeline.convert import elm
+from edgeline.convert.palette import rgb565
 from edgeline.convert.pipeline import read_source
 from edgeline.convert.source import Source, placed
-from edgeline.convert.texture import decoded, encoded, rgb565
+from edgeline.convert.texture import decoded, encoded
 from models import Gltf, checks, ply, ring, stl_ascii, stl_binary
 
 MODEL = ring()
@@ -219,7 +220,7 @@ def test_what_is_left_out_is_named(read: Read) -> None:
     gltf.node({"attributes": {"POSITION": points}, "mode": 0}, gltf.primitive(MODEL, **target), skin=0)
     gltf.json |= {"skins": [{"joints": [0]}], "animations": [{}]}
     told = " / ".join(read("m.glb", gltf.glb()).notes)
-    for word in ("points or lines", "morph targets", "skin", "transparency", "EL_MATERIAL_TWO_SIDED", "animations"):
+    for word in ("points or lines", "morph targets", "skin", "animations"):
         assert word in told
 
 

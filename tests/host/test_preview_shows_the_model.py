@@ -6,10 +6,12 @@ tests/golden/convert-*.png before committing them.
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image, ImageChops
 
@@ -67,6 +69,23 @@ def scene() -> Gltf:
     return gltf
 
 
+def panes() -> Gltf:
+    """A ring whose image has holes, seen from both sides, and one that can be looked through, before a third."""
+    fields = np.asarray(Image.open(io.BytesIO(checks())))
+    alpha = np.where(fields[..., :1] > 220, 0, 255).astype(np.uint8)
+    file = io.BytesIO()
+    Image.fromarray(np.concatenate([fields, alpha], axis=2)).save(file, "PNG")
+    gltf = Gltf()
+    view = {"bufferView": gltf.view(file.getvalue()), "mimeType": "image/png"}
+    holes = gltf.material(image=view, alphaMode="MASK", doubleSided=True)
+    glass = gltf.material([0.1, 0.9, 0.3, 0.4], alphaMode="BLEND")
+    paint = gltf.material([0.05, 0.3, 0.8, 1.0])
+    gltf.node(gltf.primitive(MODEL, material=glass), translation=[-0.6, 0.6, 0.6])
+    gltf.node(gltf.primitive(MODEL, attributes="pt", material=holes))
+    gltf.node(gltf.primitive(MODEL, material=paint), translation=[0.3, -0.7, -0.5])
+    return gltf
+
+
 def written(name: str, data: bytes) -> Callable[[Path], Path]:
     def write(folder: Path) -> Path:
         (folder / name).write_bytes(data)
@@ -92,6 +111,8 @@ CASES: dict[str, tuple[Callable[[Path], Path], list[str]]] = {
     "ply": (written("ring.ply", ply(MODEL, ">")), ["--panel", "st7789", "--rotation", "90"]),
     "ply-textured": (written("ring.ply", ply(MODEL, "", "fields.png", True)), ["--panel", "st7735"]),
     "glb": (written("scene.glb", scene().glb()), ["--panel", "ili9341", "--texture-size", "16"]),
+    "obj-palette": (house, ["--texture-format", "palette4", "--texture-size", "16", "--mipmaps", "--crease", "0"]),
+    "glb-alpha": (written("panes.glb", panes().glb()), ["--texture-size", "16"]),
     "gltf": (gltf_beside, ["--texture-size", "16"]),
 }
 

@@ -105,7 +105,7 @@ def seeded_copy(name: str, path: str, old: str, new: str) -> Path:
     copy = BUILD / f"{name}-source"
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(REPOSITORY / "tests" / "golden", copy / "tests" / "golden")
-    for part in ("firmware", "sim", "tests/target", "tests/unit"):
+    for part in ("firmware", "sim", "tests/features", "tests/target", "tests/unit"):
         shutil.copytree(REPOSITORY / part, copy / part, ignore=shutil.ignore_patterns("node_modules", "__pycache__"))
     shutil.copy(REPOSITORY / "CMakeLists.txt", copy)
     text = (copy / path).read_text(encoding="utf-8")

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/port.h"
+#include "plain_split.h"
 #include "unity.h"
 
 /* --- Seeded numbers (Marsaglia, "Xorshift RNGs", 2003) --------------------------------------------------------- */
@@ -286,8 +287,39 @@ typedef struct host_view {
     uint8_t next_seq;
 } host_view;
 
+/* A band in codec 2, over what the host has. */
+static inline void host_take_split(host_view *host, const uint8_t *body, size_t count)
+{
+    const uint32_t y = get_u16(body + 2);
+    const uint32_t lines = body[4];
+    const uint8_t no_lags[32] = {0};
+    const uint32_t lag_bytes = (body[5] & 8) != 0 ? (lines + 7) / 8 : 0;
+    const uint32_t tokens = get_u16(body + 6);
+    const size_t used = 8 + lag_bytes + tokens;
+    uint16_t literals[2048];
+    TEST_ASSERT_TRUE(used <= count && count - used <= sizeof literals && (count - used) % 2 == 0);
+    memcpy(literals, body + used, count - used);
+    plain_split packet = {.tokens = body + 8 + lag_bytes,
+                          .token_count = tokens,
+                          .literals = literals,
+                          .literal_count = (uint32_t)(count - used) / 2,
+                          .lags = lag_bytes > 0 ? body + 8 : no_lags,
+                          .width = host->width};
+    for (uint32_t line = 0; line < lines; line++) {
+        uint16_t *const row = host->pixels + (size_t)(y + line) * host->width;
+        const bool has_above = line > 0 || (body[5] & 16) != 0;
+        TEST_ASSERT_TRUE_MESSAGE(plain_split_line(&packet, has_above ? row - host->width : NULL, row),
+                                 "codec 2 breaks a rule");
+    }
+    TEST_ASSERT_TRUE(plain_split_ends(&packet));
+}
+
 static inline void host_take_band(host_view *host, const uint8_t *body, size_t count)
 {
+    if (host->width == 0) {
+        TEST_FAIL_MESSAGE("BAND before HELLO");
+        return;
+    }
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32(8, count);
     uint32_t y = get_u16(body + 2);
     uint32_t lines = body[4];
@@ -311,6 +343,8 @@ static inline void host_take_band(host_view *host, const uint8_t *body, size_t c
         TEST_ASSERT_EQUAL_UINT32(0, tokens);
         TEST_ASSERT_EQUAL_UINT32(8 + 2 * (size_t)pixels, count);
         memcpy(out, literal, 2 * (size_t)pixels);
+    } else if ((body[5] & 7) == 2) {
+        host_take_split(host, body, count);
     } else {
         uint32_t x = 0;
         uint32_t done = 0;

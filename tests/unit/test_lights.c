@@ -26,6 +26,7 @@ static uint16_t triangles[TRIANGLES][3];
 static uint8_t lit[VERTICES][3];
 static el_lamp lamps[LAMPS];
 static el_lighting lighting;
+static el_highlight highlight;
 static el_mesh mesh;
 static el_pose pose;
 static int32_t eye_q16[3];
@@ -102,7 +103,8 @@ static void expect_colour(const seeded *s, vector model, vector normal, const ui
         if (cosine <= 0) {
             continue;
         }
-        const double shine = pow(fmax(dot(n, unit(along(to_lamp, to_eye, 1))), 0), 1 << lighting.shininess_log2);
+        const double shine =
+            lighting.highlight == NULL ? 0 : pow(fmax(dot(n, unit(along(to_lamp, to_eye, 1))), 0), highlight.exponent);
         for (unsigned i = 0; i < 3; i++) {
             sums[i] += lamps[k].colour[i] / 255.0 * part * (colour[i] * cosine + lighting.specular[i] * shine);
         }
@@ -147,8 +149,10 @@ static void any_lighting(seeded *s)
     }
     lighting = (el_lighting){.lamps = lamps,
                              .lamp_count = (uint8_t)any_below(s, LAMPS + 1),
-                             .shininess_log2 = (uint8_t)any_below(s, EL_SHININESS_LOG2_MAX + 1),
+                             .highlight = any_below(s, 4) == 0 ? NULL : &highlight,
                              .two_sided = any_below(s, 2) == 0};
+    const uint32_t exponent = any_below(s, 2) == 0 ? 1 + any_below(s, 12) : 1 + any_below(s, EL_HIGHLIGHT_EXPONENT_MAX);
+    TEST_ASSERT_EQUAL_INT(EL_OK, el_highlight_make(&highlight, exponent));
     any_bytes(s, lighting.ambient, 80);
     any_bytes(s, lighting.emissive, 30);
     any_bytes(s, lighting.specular, any_below(s, 2) == 0 ? 1 : 256);
@@ -227,6 +231,23 @@ static void test_triangles(void)
     }
 }
 
+/* Entries against powers in floating point, and nothing but what is less than e^-10 behind them. */
+static void test_highlights(void)
+{
+    for (uint32_t exponent = 1; exponent <= EL_HIGHLIGHT_EXPONENT_MAX; exponent++) {
+        TEST_ASSERT_EQUAL_INT(EL_OK, el_highlight_make(&highlight, exponent));
+        for (int i = 0; i <= EL_HIGHLIGHT_STEPS; i++) {
+            const double c = fmax(1 - ldexp(i, EL_HIGHLIGHT_STEP_LOG2) / exponent, 0);
+            const double power = ldexp(pow(c, exponent), 15);
+            if (fabs(highlight.power_q15[i] - power) > 0.6) {
+                TEST_FAIL_MESSAGE("an entry is off by more than its rounding");
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT16(1 << 15, highlight.power_q15[0]);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(1, highlight.power_q15[EL_HIGHLIGHT_STEPS]);
+    }
+}
+
 /* Places that no arithmetic should stumble over: the lamp in the surface, the eye there, normals of no length, scales that
  * lead out of the world. */
 static void test_nothing_is_undefined(void)
@@ -276,8 +297,13 @@ static void test_what_is_refused(void)
     lighting.lamp_count = EL_LAMPS_MAX + 1;
     expect(EL_ERROR_SIZE);
     lighting.lamp_count = 0;
-    lighting.shininess_log2 = EL_SHININESS_LOG2_MAX + 1;
-    expect(EL_ERROR_SIZE);
+    lighting.highlight = &highlight;
+    highlight.exponent = 0;
+    expect(EL_ERROR_MATERIAL);
+    highlight.exponent = EL_HIGHLIGHT_EXPONENT_MAX + 1;
+    expect(EL_ERROR_MATERIAL);
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_highlight_make(&highlight, 0));
+    TEST_ASSERT_EQUAL_INT(EL_ERROR_RANGE, el_highlight_make(&highlight, EL_HIGHLIGHT_EXPONENT_MAX + 1));
     TEST_ASSERT_EQUAL_INT(EL_ERROR_ARGUMENT, el_light_vertices(NULL, &mesh, &pose, eye_q16, lit));
     TEST_ASSERT_EQUAL_INT(EL_ERROR_ARGUMENT, el_light_triangles(&lighting, &mesh, &pose, NULL, lit));
 }
@@ -287,6 +313,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_vertices);
     RUN_TEST(test_triangles);
+    RUN_TEST(test_highlights);
     RUN_TEST(test_nothing_is_undefined);
     RUN_TEST(test_what_is_refused);
     return UNITY_END();

@@ -4,6 +4,7 @@
 
 #include "any_triangle.h"
 #include "raster/sampler.h"
+#include "raster/texel_line.h"
 #include "raster/texture.h"
 #include "unity.h"
 
@@ -45,14 +46,20 @@ static void put_value(uint32_t x, uint32_t y, uint32_t value, el_image_format fo
     }
 }
 
+/* Often a power of two, of which there are ways of their own. */
+static uint16_t any_side(seeded *s)
+{
+    return (uint16_t)(any_below(s, 2) == 0 ? 1U << any_below(s, 5) : (uint32_t)any_between(s, 1, SIDE));
+}
+
 static void any_picture(seeded *s)
 {
     static const uint32_t values[] = {65536, 256, 16, 2};
     memset(&p, 0, sizeof p);
     const el_image_format format = (el_image_format)any_below(s, EL_IMAGE_MASK + 1);
     const bool few = any_below(s, 2) == 0;
-    p.image = (el_image){.width = (uint16_t)any_between(s, 1, SIDE),
-                         .height = (uint16_t)any_between(s, 1, SIDE),
+    p.image = (el_image){.width = any_side(s),
+                         .height = any_side(s),
                          .format = (uint8_t)format,
                          .has_key = any_below(s, 2) == 0,
                          .key = (uint16_t)any_below(s, 2),
@@ -176,6 +183,48 @@ static void test_texels_of_every_kind(void)
     }
     TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(10000U), hidden);
 }
+
+#if !EL_SMALL_CODE
+/* Rows of texels, found in the way of their texture, are those of the sampler. */
+static void test_rows_are_as_one_at_a_time(void)
+{
+    uint32_t times[EL_TEXELS_ANY + 1] = {0};
+    for (seeded s = seeded_from(904); s.round < PART_OF(20000U); s.round++) {
+        any_picture(&s);
+        const el_texture texture = {.image = &p.image,
+                                    .wrap_u = (uint8_t)(any_below(&s, 2) * any_below(&s, 3)),
+                                    .wrap_v = (uint8_t)(any_below(&s, 2) * any_below(&s, 3)),
+                                    .smooth = any_below(&s, 2) == 0};
+        el_sampler sampler;
+        el_sampler_make(&sampler, &texture);
+        el_texel_line line;
+        el_texel_line_make(&line, &sampler);
+        uint16_t colour[EL_MAX_PIECE];
+        uint16_t shown[EL_MAX_PIECE];
+        const el_texel_row row = {.u_q16 = (uint32_t)any_signed_of_bits(&s, 26),
+                                  .v_q16 = (uint32_t)any_signed_of_bits(&s, 26),
+                                  .u_step_q16 = (uint32_t)any_signed_of_bits(&s, 20),
+                                  .v_step_q16 = (uint32_t)any_signed_of_bits(&s, 20),
+                                  .colour = colour,
+                                  .count = (uint32_t)any_between(&s, 1, EL_MAX_PIECE)};
+        el_texel_line_draw(&line, &row, shown);
+        times[line.way]++;
+        for (uint32_t i = 0; i < row.count; i++) {
+            uint16_t expected = 0;
+            const uint32_t parts =
+                el_sampler_at(&sampler, row.u_q16 + i * row.u_step_q16, row.v_q16 + i * row.v_step_q16, &expected);
+            const uint32_t found = sampler.is_open ? shown[i] : 256U;
+            if (found != parts || (parts != 0 && colour[i] != expected)) {
+                fail_at(&s, "texel %lu by way %d is %04x, %lu shown, not %04x, %lu", (unsigned long)i, (int)line.way,
+                        colour[i], (unsigned long)found, expected, (unsigned long)parts);
+            }
+        }
+    }
+    for (unsigned i = 0; i <= EL_TEXELS_ANY; i++) {
+        TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100U), times[i]);
+    }
+}
+#endif
 #endif
 
 #if EL_WITH_MIPMAPS
@@ -268,6 +317,9 @@ int main(void)
     RUN_TEST(test_what_is_beyond_the_borders);
     RUN_TEST(test_nothing_leads_out_of_the_texture);
     RUN_TEST(test_texels_of_every_kind);
+#if !EL_SMALL_CODE
+    RUN_TEST(test_rows_are_as_one_at_a_time);
+#endif
 #endif
 #if EL_WITH_MIPMAPS
     RUN_TEST(test_a_triangles_level);

@@ -86,7 +86,7 @@ static void test_rows_are_those_of_all_others(void)
                     (int)corners[1].x, (int)corners[1].y, (int)corners[2].x, (int)corners[2].y, (int)lines);
         }
     }
-    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(5000U), small);
+    TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(4500U), small);
 }
 #else
 static void test_the_short_way_is_for_four_bits(void)

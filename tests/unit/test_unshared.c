@@ -5,7 +5,7 @@
 #include "recording_sink.h"
 #include "seeded.h"
 
-enum { WIDTH = 40, HEIGHT = 30, TRIANGLES = 400, VERTICES = 3 * TRIANGLES, PLENTY = 120000, SCENES = PART_OF(60) };
+enum { WIDTH = 40, HEIGHT = 30, TRIANGLES = 400, VERTICES = 3 * TRIANGLES, PLENTY = 120000, SCENES = 3 + PART_OF(57) };
 
 typedef struct cloud {
     int16_t positions[VERTICES][3];

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from edgeline.convert.header import NamedMesh
-from edgeline.convert.mesh import TEXEL_ONE, Ints, Mesh, Texture, weld
+from edgeline.convert.mesh import TEXEL_ONE, Ints, Mesh, weld
+from edgeline.convert.texels import Texture
 from edgeline.errors import EdgelineError
 
 SCALE_LOG2 = -9

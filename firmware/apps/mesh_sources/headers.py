@@ -1,4 +1,4 @@
-"""The meshes' C headers as text, by name; and, for the script beside this package, how to write them."""
+"""The meshes' C headers as text, by name."""
 
 from __future__ import annotations
 
@@ -6,12 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from edgeline.convert.clusters import with_clusters
-from edgeline.convert.files import write_whole
 from edgeline.convert.header import c_header
-from edgeline.errors import EdgelineError
 from mesh_sources import bench, demo
-
-__all__ = ["EdgelineError", "bench_headers", "demo_headers", "write_whole"]
 
 
 def demo_headers() -> dict[str, str]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import Floats, Texture
-from edgeline.convert.texture import rgb565
+from edgeline.convert.mesh import Floats
+from edgeline.convert.palette import rgb565
+from edgeline.convert.texels import Texture
 from mesh_sources.noise import hashed, smooth
 
 SIDE = 128

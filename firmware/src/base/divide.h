@@ -78,8 +78,8 @@ static inline uint32_t el_reciprocal_beside(uint32_t d)
 #endif
 }
 
-/* Algorithm 2 of the paper. Its first step is a division of 24 bits by 10: a hardware divider's business where there is
- * one, the paper's table elsewhere. */
+/* The first step of Algorithm 2 of the paper, a division of 24 bits by 10: a hardware divider's business where there is one,
+ * the paper's table elsewhere. */
 #if defined(EL_DIVIDE_BY_TABLE)
 EL_INLINE uint32_t el_first_guess(uint32_t d10)
 {
@@ -92,6 +92,7 @@ EL_INLINE uint32_t el_first_guess(uint32_t d10)
 }
 #endif
 
+/* floor((2^64 - 1) / d) - 2^32, 2^31 <= d: Algorithm 2. */
 EL_INLINE uint32_t el_reciprocal_word(uint32_t d)
 {
     const uint32_t d10 = d >> 22;        /* 512..1023 */

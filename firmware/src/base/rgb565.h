@@ -36,9 +36,22 @@ static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t a
     const uint32_t over_rb = (over & 0xF800U) << 5 | (over & 0x1FU);
     const uint32_t under_g = under & 0x07E0U;
     const uint32_t over_g = over & 0x07E0U;
-    const uint32_t rb = (under_rb * (256U - alpha) + over_rb * alpha + 0x00800080U) >> 8;
-    const uint32_t g = (under_g * (256U - alpha) + over_g * alpha + 0x1000U) >> 8; /* half of a unit is 2^5 * 128 */
+    /* under * (256 - alpha) + over * alpha in one product, modulo 2^32: what is below 0 in between is made up for. */
+    const uint32_t rb = ((under_rb << 8) + (over_rb - under_rb) * alpha + 0x00800080U) >> 8;
+    const uint32_t g = ((under_g << 8) + (over_g - under_g) * alpha + 0x1000U) >> 8; /* half a unit is 2^5 * 128 */
     return (uint16_t)((rb >> 5 & 0xF800U) | (g & 0x07E0U) | (rb & 0x1FU));
+}
+
+/* The same for two pixels that lie side by side in a word. Their channels are 16 bits apart, sums below 63 * 256 + 128. */
+static inline uint32_t el_rgb565_blend_pair(uint32_t under, uint32_t over, uint32_t alpha)
+{
+    const uint32_t under_r = under >> 11 & 0x001F001FU;
+    const uint32_t under_g = under >> 5 & 0x003F003FU;
+    const uint32_t under_b = under & 0x001F001FU;
+    const uint32_t r = (under_r << 8) + ((over >> 11 & 0x001F001FU) - under_r) * alpha + 0x00800080U;
+    const uint32_t g = (under_g << 8) + ((over >> 5 & 0x003F003FU) - under_g) * alpha + 0x00800080U;
+    const uint32_t b = (under_b << 8) + ((over & 0x001F001FU) - under_b) * alpha + 0x00800080U;
+    return (r >> 8 & 0x001F001FU) << 11 | (g >> 8 & 0x003F003FU) << 5 | (b >> 8 & 0x001F001FU);
 }
 
 #ifdef __cplusplus

@@ -24,6 +24,7 @@ typedef struct el_band {
     uint16_t width;        /* pixels per line */
     uint16_t y;            /* first line on the screen */
     uint16_t lines;        /* lines in this band; the last band of a frame may have fewer than the others */
+    uint8_t gap;           /* lines of the screen between two of its lines: 0; 1 in an interlaced frame */
     volatile uint8_t held[EL_MAX_SINKS]; /* not 0 while that sink has the band; each byte has one writer at a time,
                                             so an interrupt may clear it without a lock */
 } el_band;
@@ -46,7 +47,7 @@ static inline bool el_band_is_free(const el_band *band)
 }
 
 /* All functions get `context`. For each frame: begin, then rows or unchanged for bands from the top to the bottom without
- * a gap, then end. */
+ * a gap, then end. Of an interlaced frame (el_config.interlaced) the lines between those of the bands are as they were. */
 typedef struct el_sink {
     void *context;
     /* A frame of width x height pixels starts. */
@@ -63,6 +64,8 @@ typedef struct el_sink {
     /* Called again and again while the renderer waits for a band: drive the transfer, or sleep until an interrupt.
      * May be NULL. */
     void (*wait)(void *context);
+    /* Bands may have gaps: their line i is line y + i * (1 + gap) of the screen. Without, there are no interlaced frames. */
+    bool takes_gaps;
 } el_sink;
 
 #ifdef __cplusplus

@@ -6,6 +6,7 @@
 #include "frame/debug_hooks.h"
 #include "frame/painter_sampled.h"
 #include "frame/quiet.h"
+#include "raster/field.h"
 
 /* What frame/workers.c calls too, if there are workers. */
 #if EL_WITH_WORKERS
@@ -41,10 +42,30 @@ OF_WORKERS_TOO EL_APART_IF_SMALL void el_bands_hand_over(el_renderer *renderer, 
     el_count(&renderer->stats.bands, 1);
 }
 
+/* Layers know of no gaps, and draw the same into bands of any height. */
+static EL_SELDOM void draw_layer_by_lines(const el_band *band, const el_layer *layer)
+{
+    for (unsigned i = 0; i < band->lines; i++) {
+        const uint32_t at = i * band->width;
+        el_band line = {.pixels = band->pixels + at,
+                        .depth = band->depth + at,
+                        .width = band->width,
+                        .y = (uint16_t)(band->y + i * (1U + band->gap)),
+                        .lines = 1};
+        layer->draw(layer->context, &line);
+    }
+}
+
 static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *layer)
 {
-    if (layer != NULL) {
-        layer->draw(layer->context, &painter->bands[painter->current]);
+    if (layer == NULL) {
+        return;
+    }
+    el_band *const band = &painter->bands[painter->current];
+    if (EL_WITH_INTERLACED && band->gap != 0) {
+        draw_layer_by_lines(band, layer);
+    } else {
+        layer->draw(layer->context, band);
     }
 }
 
@@ -77,9 +98,13 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     el_band *const buffer = &painter->bands[painter->current];
     uint16_t *const depth = painter->depth[painter->current];
     const int32_t y = band * config->band_lines;
-    const int32_t y_end = el_min_i32(y + config->band_lines, config->height);
+    const int32_t y_end = el_min_i32(y + config->band_lines, el_renderer_lines(renderer));
+    const uint8_t field = el_list_field(&renderer->list);
     if (!painter->band_is_open) {
-        buffer->y = (uint16_t)y;
+        buffer->y = (uint16_t)el_screen_row(field, y);
+#if EL_WITH_INTERLACED
+        buffer->gap = field != EL_FIELD_NONE;
+#endif
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
@@ -94,7 +119,8 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         }
         painter->band_is_open = 1;
     }
-    return (el_target){.colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end};
+    return (el_target){
+        .colour = buffer->pixels, .depth = depth, .width = config->width, .y = y, .y_end = y_end, .field = field};
 }
 
 OF_WORKERS_TOO void el_bands_draw(el_painter *painter, const el_renderer *renderer, uint16_t band, bool goes_on)

@@ -12,6 +12,7 @@
 #include "base/fixed.h"
 #include "geometry/transform.h"
 #include "raster/edge.h"
+#include "raster/field.h"
 #include "raster/plane.h"
 
 /* 1 where el_cull_in_view is faster than el_cull, which small code has alone and larger coordinates need. */
@@ -33,10 +34,11 @@ typedef struct el_culling {
     bool two_sided;
     int32_t width; /* of the screen */
     int32_t height;
-    int32_t row_begin; /* rows of the pass, on the screen */
+    int32_t row_begin; /* rows of the pass, on the screen; of a field, its lines */
     int32_t row_end;
     int32_t
-        reach; /* how far samples are from their pixel's centre on either axis, in 1/EL_SUBPIXELS px; 0: it has one */
+        reach; /* how far from pixels' centres a triangle counts on either axis, in 1/EL_SUBPIXELS px: samples, wires */
+    uint8_t field; /* el_field of the frame */
 } el_culling;
 
 /* Rows of a triangle that is seen: [first, end), of which `begin` is the first in the pass. */
@@ -62,7 +64,7 @@ static inline el_verdict el_cull(const el_culling *culling, const el_screen_vert
     if ((area > 0) == (culling->facing > 0) && !culling->two_sided) {
         return EL_VERDICT_BACK;
     }
-    const int32_t reach = EL_WITH_SAMPLES ? culling->reach : 0;
+    const int32_t reach = EL_WITH_SAMPLES + EL_WITH_WIRES > 0 ? culling->reach : 0;
     const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])) - reach);
     const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])) + reach);
     rows->first = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])) - reach);
@@ -72,6 +74,13 @@ static inline el_verdict el_cull(const el_culling *culling, const el_screen_vert
     }
     if (x_end <= 0 || x_begin >= culling->width || rows->end <= 0 || rows->first >= culling->height) {
         return EL_VERDICT_OUTSIDE;
+    }
+    if (EL_WITH_INTERLACED && culling->field != EL_FIELD_NONE) {
+        rows->first = el_field_row(culling->field, rows->first);
+        rows->end = el_field_row(culling->field, rows->end);
+        if (rows->first >= rows->end) {
+            return EL_VERDICT_EMPTY;
+        }
     }
     return el_cull_by_rows(culling, rows);
 }

@@ -11,8 +11,9 @@
 #include "raster/fog.h"
 #include "raster/gather.h"
 #include "raster/texture.h"
+#include "raster/wires.h"
 
-/* Attributes of corners that are cut. */
+/* Attributes of corners that are cut; those of wires are their weights. */
 enum { U, V, RGB };
 
 /* The rows of the pass, which make_room may have made fewer. */
@@ -20,7 +21,7 @@ static void find_rows(el_drawing *d)
 {
     const el_renderer *const renderer = d->renderer;
     d->culling.row_begin = renderer->pass_begin * renderer->config.band_lines;
-    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, renderer->config.height);
+    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, el_renderer_lines(renderer));
 }
 
 /* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
@@ -51,9 +52,18 @@ static bool make_room(el_renderer *renderer)
     return !was_open;
 }
 
-static void fill_clipped(el_record *record, const el_clip_corner *const corners[3])
+static void fill_clipped(el_record *record, const el_draw_state *draw, const el_clip_corner *const corners[3])
 {
     el_record_clipped *const clipped = (el_record_clipped *)(void *)record;
+#if EL_WITH_WIRES
+    if (el_draws_wires(draw)) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the same as below. */
+        const int32_t *const weights[3] = {corners[0]->attributes, corners[1]->attributes, corners[2]->attributes};
+        clipped->edges = (uint8_t)el_wires_of_piece(el_mesh_edges(draw->mesh, record->index), weights);
+        return;
+    }
+#endif
+    (void)draw;
     for (unsigned i = 0; i < 3; i++) {
         /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a clipped record is made of a triangle that was cut. */
         const int32_t *const a = corners[i]->attributes;
@@ -96,7 +106,7 @@ static void add_triangle(el_drawing *d, uint16_t index, const el_screen_vertex *
             }
             el_fill_record(record, index, v, kind, rows.first);
             if (EL_CLIP_ATTRIBUTES > 0 && kind == EL_RECORD_CLIPPED) {
-                fill_clipped(record, cut);
+                fill_clipped(record, d->state, cut);
             }
         }
         d->verdicts[verdict]++;
@@ -150,6 +160,11 @@ static EL_APART_IF_SMALL void clip_triangle(el_drawing *d, uint16_t index, uint8
                         seen_from_back(d->state, clip);
     for (unsigned i = 0; i < 3; i++) {
         corners[i] = (el_clip_corner){.position = clip[i]};
+#if EL_WITH_WIRES
+        if (el_draws_wires(d->state)) {
+            corners[i].attributes[i] = EL_WIRE_WEIGHT;
+        }
+#endif
         if (el_has_texture((el_shading)material->shading)) {
             corners[i].attributes[U] = d->mesh->uvs[vertices[i]][0] * (1 << 12);
             corners[i].attributes[V] = d->mesh->uvs[vertices[i]][1] * (1 << 12);
@@ -334,6 +349,31 @@ static bool can_mix(const el_renderer *renderer, const el_material *material)
 }
 #endif
 
+static inline bool wants_wires(const el_material *material, el_shading shading)
+{
+#if EL_WITH_WIRES
+    return shading == EL_SHADE_FLAT && (material->flags & EL_MATERIAL_WIRES) != 0;
+#else
+    (void)material;
+    (void)shading;
+    return false;
+#endif
+}
+
+#if EL_WITH_WIRES
+/* Whether a material that is to draw wires can. */
+static bool can_draw_wires(const el_renderer *renderer, const el_material *material)
+{
+#if EL_WITH_MIXED
+    if (el_is_blended(material) || material->fog != NULL) {
+        return false;
+    }
+#endif
+    return material->shading == EL_SHADE_FLAT && (!EL_WITH_SAMPLES || renderer->list.reach == 0) &&
+           !el_config_has_stripes(&renderer->config);
+}
+#endif
+
 static el_status check(const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
@@ -371,6 +411,11 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (EL_WITH_SAMPLES && material->shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
         return EL_ERROR_MATERIAL;
     }
+#if EL_WITH_WIRES
+    if ((material->flags & EL_MATERIAL_WIRES) != 0 && !can_draw_wires(renderer, material)) {
+        return EL_ERROR_MATERIAL;
+    }
+#endif
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -402,20 +447,31 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
 #if EL_WITH_MIXED
     state.flags |= finish_of(material, shading);
 #endif
+    const bool has_wires = wants_wires(material, shading);
+    state.flags |= (uint8_t)(has_wires ? EL_FINISH_WIRES : 0);
     el_drawing d = {
         .renderer = renderer,
         .mesh = mesh,
         .state = &state,
         .list = &renderer->list,
         .kind = el_has_texture(shading) ? EL_RECORD_PERSPECTIVE : EL_RECORD_PLAIN,
-        .cut_kind = el_has_texture(shading) || el_has_colours(shading) ? EL_RECORD_CLIPPED : EL_RECORD_CUT,
+        .cut_kind = el_has_texture(shading) || el_has_colours(shading) || has_wires ? EL_RECORD_CLIPPED : EL_RECORD_CUT,
         .culling = {.facing = state.transform.mirrored != 0 ? -1 : 1,
                     .two_sided = (material->flags & EL_MATERIAL_TWO_SIDED) != 0,
                     .width = renderer->config.width,
                     .height = renderer->config.height,
-                    .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0},
+                    .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0,
+                    .field = el_list_field(&renderer->list)},
         .by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1,
     };
+#if EL_WITH_WIRES
+    if (has_wires) {
+        d.culling.reach = EL_WIRE_REACH;
+    }
+#endif
+#if EL_CULLS_IN_VIEW
+    d.is_special = d.culling.reach != 0 || d.culling.field != EL_FIELD_NONE;
+#endif
     el_list_end_draw(&renderer->list);
     /* Enough for a few vertices in the cache and for the largest record and its run beside them; an empty list has it. */
     while (renderer->list_bytes - renderer->list.used < EL_MIN_LIST_BYTES / 2) {

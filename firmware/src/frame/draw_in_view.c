@@ -241,19 +241,23 @@ static uint32_t list_cached(el_drawing *d, uint32_t index, uint32_t end)
     return index;
 }
 
-#if EL_WITH_SAMPLES
-/* Where pixels have several samples: what is taken into account of a triangle is a little larger. */
-static EL_APART uint32_t list_sampled(el_drawing *d, uint32_t index, uint32_t end)
+#if EL_WITH_SAMPLES || EL_WITH_WIRES || EL_WITH_INTERLACED
+/* Where pixels have several samples: what is taken into account of a triangle is a little larger. That of wires is too large
+ * for el_cull_in_view, which knows no fields, either. */
+static EL_APART uint32_t list_special(el_drawing *d, uint32_t index, uint32_t end)
 {
+    if (el_draws_wires(d->state) || d->culling.field != EL_FIELD_NONE) {
+        return index;
+    }
     return list_in_view(d, index, end, d->direct ? DIRECT : CACHED, d->list->is_shared, (uint32_t)d->culling.reach);
 }
 #endif
 
 uint32_t el_drawing_list_in_view(el_drawing *d, uint32_t index, uint32_t end)
 {
-#if EL_WITH_SAMPLES
-    if (d->culling.reach != 0) {
-        return list_sampled(d, index, end);
+#if EL_WITH_SAMPLES || EL_WITH_WIRES || EL_WITH_INTERLACED
+    if (d->is_special) {
+        return list_special(d, index, end);
     }
 #endif
     if (EL_WITH_WORKERS && d->list->is_shared) {

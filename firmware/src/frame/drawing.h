@@ -35,6 +35,7 @@ typedef struct el_drawing {
      * order, and so over some slots of the cache. */
     uint32_t unshared_begin, unshared_end;
     uint32_t stretch_begin, stretch_end;
+    bool is_special;         /* not what list_direct and list_cached are for */
     uint32_t overlaid;       /* slots whose vertices are not what `cached` says */
     uint32_t outside_before; /* verdicts when unshared_begin was set */
     bool looks_beside;       /* at the sides, before vertices are transformed */

@@ -5,12 +5,14 @@
 #include "base/fixed.h"
 #include "frame/carrying.h"
 #include "frame/debug_hooks.h"
+#include "frame/painter_field.h"
 #include "frame/painter_sampled.h"
 #include "raster/gather.h"
 #include "raster/hidden.h"
 #include "raster/plain.h"
 #include "raster/small_triangle.h"
 #include "raster/tiny_triangle.h"
+#include "raster/wires.h"
 
 /* What is carried, see painter.h. */
 typedef struct carried_state {
@@ -69,6 +71,22 @@ static uint16_t nearest(const el_corner corners[3])
 }
 #endif
 
+#if EL_WITH_WIRES
+/* Draws the edges of a triangle; nothing of it is carried on but its name. As draw_any. */
+static EL_SELDOM uint16_t draw_wires(el_painter *painter, const el_renderer *renderer, uint16_t name,
+                                     const el_corner corners[3], el_surface *surface, const el_target *target)
+{
+    const el_list *const list = &renderer->list;
+    const el_record *const record = el_list_record(list, name);
+    surface->colour = el_wires_colour(list, record);
+    el_debug_surface(renderer, record, surface);
+    el_count(&painter->stats->setups, 1);
+    el_wires_draw(corners, el_wires_of(list, record), surface, target, painter->stats);
+    const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+    return painter->goes_on && el_first_centre(y_last + EL_WIRE_REACH) > target->y_end ? name : 0;
+}
+#endif
+
 /* Sets up a record's triangle and draws it into the target. A triangle that reaches beyond is set up where its state will
  * stay. Returns the name under which it is carried on; 0 when it is not. */
 static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el_renderer *renderer, uint16_t name,
@@ -83,6 +101,11 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     el_corner corners[3];
     el_surface surface;
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
+#if EL_WITH_WIRES
+    if ((surface.finish & EL_FINISH_WIRES) != 0) {
+        return draw_wires(painter, renderer, name, corners, &surface, target);
+    }
+#endif
     surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
     const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
@@ -381,6 +404,12 @@ void el_painter_draw(el_painter *painter, const el_renderer *renderer, const el_
 #if EL_WITH_SAMPLES
     if (el_renderer_samples(renderer) > 1) {
         el_painter_draw_samples(painter, renderer, target, fresh, carried);
+        return;
+    }
+#endif
+#if EL_WITH_INTERLACED
+    if (target->field != EL_FIELD_NONE) {
+        el_painter_draw_field(painter, renderer, target, fresh, carried);
         return;
     }
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/hash.h"
+#include "frame/bands.h"
 #include "raster/fog.h"
 
 #if EL_WITH_REUSE
@@ -58,6 +59,9 @@ static uint32_t hash_mesh(uint32_t hash, const el_mesh *mesh)
     hash = hash_pointer(hash, mesh->triangle_colours);
     hash = hash_pointer(hash, mesh->normals);
     hash = hash_pointer(hash, mesh->uvs);
+#if EL_WITH_WIRES
+    hash = hash_pointer(hash, mesh->edges);
+#endif
     hash = hash_pointer(hash, mesh->clusters);
     hash = hash_pair(hash, mesh->vertex_count, mesh->triangle_count);
     hash = hash_pair(hash, (uint8_t)mesh->scale_log2, mesh->radius);
@@ -237,8 +241,8 @@ void el_quiet_begin(el_renderer *renderer)
     quiet->band_takers = quiet->takers;
     quiet->looks = (reuse_of(renderer) & EL_REUSE_FRAME) != 0;
     if (quiet->looks) {
-        const uint32_t settings =
-            hash_pair(config->background, (uint32_t)config->samples << 8 | config->uv_error_log2, config->shading_off);
+        const uint32_t settings = hash_pair(
+            config->background, (uint32_t)el_config_samples(config) << 8 | config->uv_error_log2, config->shading_off);
         quiet->submitted = hash_view(settings, &renderer->view);
     }
 }

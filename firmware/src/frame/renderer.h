@@ -130,11 +130,22 @@ typedef struct el_config {
      * changed between frames to what needs no more memory than there was for el_init. With several samples there is no
      * depth pre-pass and no EL_SHADE_OVERDRAW, hidden triangles are found pixel by pixel, and each triangle is set up in each
      * band; a debug view shows the frame without. */
+#if EL_WITH_SAMPLES
     uint8_t samples;
+#endif
+    /* Each frame draws, and hands to the sinks, every other line alone, the even and the odd ones by turns: half of the
+     * wire, and of the pixels, for a picture that moves twice as smoothly over a slow wire. Two frames of what stands still
+     * make the whole picture, to the last bit. For sinks that take gaps (el_sink.takes_gaps); with one sample, one worker and
+     * without `stripes`, `reuse`, `depth_prepass` and `view`. */
+#if EL_WITH_INTERLACED
+    bool interlaced;
+#endif
     /* el_stripes, for good: the display's stripes from left to right, in thirds of a pixel (raster/stripes.h). The frame is drawn
      * as one of EL_STRIPED_WIDTH(width) pixels a line: it takes the memory of that, and about the time. Goes with `samples`, of
      * which each stripe has as many. `over` is drawn sharp, `under` and a debug view are filtered like the rest. */
+#if EL_WITH_STRIPES
     uint8_t stripes;
+#endif
     bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
                               and much lies behind other things; may be changed between frames too */
     void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
@@ -174,6 +185,9 @@ typedef struct el_renderer {
 #if EL_WITH_DEBUG_VIEWS
     uint8_t pass_draws; /* draws before this pass, modulo 256 */
 #endif
+#if EL_WITH_INTERLACED
+    uint16_t lines; /* of this frame: the screen's, or a field's */
+#endif
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
@@ -195,7 +209,8 @@ typedef struct el_renderer {
 } el_renderer;
 
 /* EL_ERROR_ARGUMENT, EL_ERROR_SIZE, EL_ERROR_MEMORY. EL_ERROR_SIZE also for a view, a shading_off or a reuse that does not
- * exist or that base/options.h leaves out. */
+ * exist or that base/options.h leaves out, and for what does not go with `interlaced`; EL_ERROR_ARGUMENT where that has a
+ * sink that takes no gaps. */
 el_status el_init(el_renderer *renderer, const el_config *config);
 
 /* Starts a frame. EL_ERROR_CAMERA or EL_ERROR_RANGE for a camera that cannot be used; no frame has begun then. */

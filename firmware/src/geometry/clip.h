@@ -10,8 +10,9 @@
 #include "geometry/transform.h"
 
 enum {
-    EL_CLIP_ATTRIBUTES = EL_WITH_GOURAUD ? 5 : (EL_WITH_TEXTURE ? 2 : 0), /* u, v, red, green, blue */
-    EL_CLIP_MAX_VERTICES = 9                                              /* a triangle and six planes */
+    /* u, v, red, green, blue; or, of wires, three weights */
+    EL_CLIP_ATTRIBUTES = EL_WITH_GOURAUD ? 5 : (EL_WITH_WIRES ? 3 : (EL_WITH_TEXTURE ? 2 : 0)),
+    EL_CLIP_MAX_VERTICES = 9 /* a triangle and six planes */
 };
 
 typedef struct el_clip_corner {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/crc32.h"
+#include "geometry/elm_surface.h"
 
 /* The views are the file's bytes as they lie, so the machine's byte order has to be the file's. */
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "an .elm is read in place, on little-endian machines only");
@@ -35,6 +36,7 @@ _Static_assert(sizeof(el_cluster) == 18, "clusters are the file's, byte for byte
 
 enum {
     MAJOR_VERSION = 1,
+    MAJOR_VERSION_SURFACE = 2,
     CRC_FROM = 16,
     CLUSTERS_FROM = 4, /* behind their number */
     CONTENT_COLOURS = 1,
@@ -43,14 +45,15 @@ enum {
     CONTENT_UVS = 8,
     CONTENT_TEXTURE = 16,
     CONTENT_CLUSTERS = 32,
-    CONTENT_ALL = 63,
+    CONTENT_SURFACE = 64,
+    CONTENT_ALL = 63, /* of version 1 */
     MAX_SIDE_LOG2 = 10,
     MIN_SCALE_LOG2 = -30,
     MAX_SCALE_LOG2 = 8
 };
 
 /* The sections in the file's order; an absent one has no bytes. */
-enum { POSITIONS, TRIANGLES, COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXELS, CLUSTERS, SECTION_COUNT };
+enum { POSITIONS, TRIANGLES, COLOURS, TRIANGLE_COLOURS, NORMALS, UVS, TEXELS, CLUSTERS, SURFACE, SECTION_COUNT };
 
 typedef struct layout {
     uint32_t offset[SECTION_COUNT]; /* from the beginning of the file, in bytes */
@@ -60,7 +63,7 @@ typedef struct layout {
 
 /* Sizes are added up in 32 bits: the largest mesh with the largest texture stays far below them. */
 _Static_assert(sizeof(elm_header) + EL_MESH_MAX_VERTICES * (6 + 3 + 3 + 4) + EL_MESH_MAX_TRIANGLES * (6 + 3) +
-                       (2 << (2 * MAX_SIDE_LOG2)) + 4 + EL_MESH_MAX_TRIANGLES * (int)sizeof(el_cluster) +
+                       (8 << (2 * MAX_SIDE_LOG2)) + 4 + EL_MESH_MAX_TRIANGLES * (int)sizeof(el_cluster) +
                        3 * SECTION_COUNT <
                    INT32_MAX,
                "the size of a file fits 31 bits");
@@ -70,8 +73,8 @@ static uint32_t padded(uint32_t bytes)
     return (bytes + 3u) & ~3u;
 }
 
-/* `cluster_count`: of the section that says so itself. */
-static layout layout_of(const elm_header *header, uint32_t cluster_count)
+/* `cluster_count`, `surface_bytes`: of the sections that say so themselves. */
+static layout layout_of(const elm_header *header, uint32_t cluster_count, uint32_t surface_bytes)
 {
     const uint32_t vertices = header->vertex_count;
     const uint32_t triangles = header->triangle_count;
@@ -88,6 +91,7 @@ static layout layout_of(const elm_header *header, uint32_t cluster_count)
                 [TEXELS] = content & CONTENT_TEXTURE ? 2u << (header->width_log2 + header->height_log2) : 0,
                 [CLUSTERS] =
                     content & CONTENT_CLUSTERS ? CLUSTERS_FROM + cluster_count * (uint32_t)sizeof(el_cluster) : 0,
+                [SURFACE] = surface_bytes,
             },
         .size = sizeof(elm_header),
     };
@@ -105,6 +109,15 @@ static bool is_consistent(const elm_header *header)
     if (header->vertex_count == 0 || header->triangle_count == 0 || header->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return false;
     }
+#if EL_WITH_MIXED
+    if (header->major == MAJOR_VERSION_SURFACE) {
+        /* A picture needs texture coordinates, too; its sides are 0 where there is none, which its section has to say. */
+        const bool has_uvs = (header->content & CONTENT_UVS) != 0;
+        return (header->content & ~CONTENT_ALL) == CONTENT_SURFACE && !has_texture &&
+               header->width_log2 <= (has_uvs ? MAX_SIDE_LOG2 : 0) &&
+               header->height_log2 <= (has_uvs ? MAX_SIDE_LOG2 : 0);
+    }
+#endif
     if ((header->content & ~CONTENT_ALL) != 0 || (has_texture && (header->content & CONTENT_UVS) == 0)) {
         return false;
     }
@@ -186,7 +199,7 @@ static bool is_in_range(const elm_header *header, const int16_t (*positions)[3],
 /* The number at the beginning of the last section, where that is there; no more than fits the file. */
 static uint32_t cluster_count_of(const elm_header *header, const uint8_t *file, size_t size)
 {
-    const uint32_t at = layout_of(header, 0).offset[CLUSTERS];
+    const uint32_t at = layout_of(header, 0, 0).offset[CLUSTERS];
     uint32_t count = 0;
     if ((header->content & CONTENT_CLUSTERS) != 0 && at <= size - CLUSTERS_FROM) {
         memcpy(&count, file + at, sizeof count);
@@ -200,7 +213,29 @@ static const void *section(const uint8_t *file, const layout *at, int index)
     return at->bytes[index] != 0 ? file + at->offset[index] : NULL;
 }
 
-el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_texture *texture)
+#if EL_WITH_MIXED
+/* The size of the last section, by its own head; 0 where that is not there or wrong. */
+static uint32_t surface_bytes_of(const elm_header *header, const uint8_t *file, size_t size, uint32_t cluster_count)
+{
+    const uint32_t at = layout_of(header, cluster_count, 0).offset[SURFACE];
+    if (at > size || size - at < EL_ELM_SURFACE_HEAD) {
+        return 0;
+    }
+    const uint32_t bytes = el_elm_surface_bytes(file + at, header->width_log2, header->height_log2);
+    /* Only a picture needs texture coordinates. */
+    return (header->content & CONTENT_UVS) != 0 || bytes == EL_ELM_SURFACE_HEAD ? bytes : 0;
+}
+#endif
+
+/* What a file holds, all of it checked but for the inside of its surface. */
+typedef struct opened {
+    elm_header header;
+    layout at;
+    el_mesh mesh;
+} opened;
+
+/* `last_version`: the newest that the caller can take. */
+static el_elm_status open_file(const void *bytes, size_t size, uint16_t last_version, opened *found)
 {
     static const uint8_t magic[4] = {'E', 'L', 'M', 0x1a};
     const uint8_t *file = bytes;
@@ -212,7 +247,7 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
     }
     elm_header header;
     memcpy(&header, file, sizeof header);
-    if (header.major != MAJOR_VERSION) {
+    if (header.major < MAJOR_VERSION || header.major > last_version) {
         return EL_ELM_VERSION;
     }
     if (header.size > size) {
@@ -222,7 +257,16 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
         return EL_ELM_CORRUPT;
     }
     const uint32_t cluster_count = cluster_count_of(&header, file, size);
-    const layout at = layout_of(&header, cluster_count);
+    uint32_t surface_bytes = 0;
+#if EL_WITH_MIXED
+    if (header.major == MAJOR_VERSION_SURFACE) {
+        surface_bytes = surface_bytes_of(&header, file, size, cluster_count);
+        if (surface_bytes == 0) {
+            return EL_ELM_CORRUPT;
+        }
+    }
+#endif
+    const layout at = layout_of(&header, cluster_count, surface_bytes);
     if (at.size != size || !is_padded_with_zeros(file, &at)) {
         return EL_ELM_CORRUPT;
     }
@@ -246,12 +290,50 @@ el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_text
         !has_whole_clusters(&header, view.positions, view.triangles, view.clusters, cluster_count)) {
         return EL_ELM_RANGE;
     }
-    *mesh = view;
-    *texture = (el_texture){
-        .texels = section(file, &at, TEXELS),
-        .width_log2 = header.width_log2,
-        .height_log2 = header.height_log2,
+    *found = (opened){.header = header, .at = at, .mesh = view};
+    return EL_ELM_OK;
+}
+
+/* Of version 1. */
+static el_texture texture_of(const uint8_t *file, const opened *found)
+{
+    return (el_texture){
+        .texels = section(file, &found->at, TEXELS),
+        .width_log2 = found->header.width_log2,
+        .height_log2 = found->header.height_log2,
     };
+}
+
+el_elm_status el_elm_open(const void *bytes, size_t size, el_mesh *mesh, el_texture *texture)
+{
+    opened found;
+    const el_elm_status status = open_file(bytes, size, MAJOR_VERSION, &found);
+    if (status == EL_ELM_OK) {
+        *mesh = found.mesh;
+        *texture = texture_of(bytes, &found);
+    }
+    return status;
+}
+
+el_elm_status el_elm_open_surface(const void *bytes, size_t size, el_mesh *mesh, el_elm_surface *surface)
+{
+    opened found;
+    const el_elm_status status = open_file(bytes, size, EL_WITH_MIXED ? MAJOR_VERSION_SURFACE : MAJOR_VERSION, &found);
+    if (status != EL_ELM_OK) {
+        return status;
+    }
+#if EL_WITH_MIXED
+    if (found.header.major == MAJOR_VERSION_SURFACE) {
+        if (!el_elm_surface_open((const uint8_t *)bytes + found.at.offset[SURFACE], found.header.width_log2,
+                                 found.header.height_log2, surface)) {
+            return EL_ELM_CORRUPT;
+        }
+        *mesh = found.mesh;
+        return EL_ELM_OK;
+    }
+#endif
+    *surface = (el_elm_surface){.alpha = 255, .levels[0] = texture_of(bytes, &found)};
+    *mesh = found.mesh;
     return EL_ELM_OK;
 }
 
@@ -263,7 +345,7 @@ const char *el_elm_message(el_elm_status status)
     case EL_ELM_NOT_ELM:
         return "not an .elm mesh (or its bytes are not 4-byte aligned); convert a model with: edgeline convert";
     case EL_ELM_VERSION:
-        return "an .elm of another major version; convert the model again, or update Edgeline";
+        return "an .elm of another major version, or with a surface; convert the model again, or update Edgeline";
     case EL_ELM_TRUNCATED:
         return "the .elm is cut short: it has fewer bytes than its header says; copy it again";
     case EL_ELM_CORRUPT:

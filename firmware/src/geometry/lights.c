@@ -78,8 +78,40 @@ static uint32_t cone_q16(const el_lamp *lamp, const int32_t to_lamp_q30[3])
     return (uint32_t)((t * t >> 16) * ((3U << 16) - 2U * t) >> 16);
 }
 
-/* max(0, n . h)^(2^shininess_log2), Q16. */
-static uint32_t highlight_q16(const spot *at, const int32_t to_lamp_q30[3], unsigned shininess_log2)
+/* c^exponent, 0 <= c <= 1, rounded down at each of its products. */
+static uint32_t power_q30(uint32_t c_q30, uint32_t exponent)
+{
+    uint64_t square_q30 = c_q30;
+    uint64_t product_q30 = EL_UNIT_Q30;
+    for (; exponent > 0; exponent >>= 1) {
+        if ((exponent & 1U) != 0) {
+            product_q30 = product_q30 * square_q30 >> 30;
+        }
+        square_q30 = square_q30 * square_q30 >> 30;
+    }
+    return (uint32_t)product_q30;
+}
+
+enum { STEP_BITS = 30 + EL_HIGHLIGHT_STEP_LOG2 }; /* of (1 - c) * exponent in Q30: below 2^41 */
+
+el_status el_highlight_make(el_highlight *highlight, uint32_t exponent)
+{
+    if (exponent == 0 || exponent > EL_HIGHLIGHT_EXPONENT_MAX) {
+        return EL_ERROR_RANGE;
+    }
+    highlight->exponent = (uint16_t)exponent;
+    const el_divisor divisor = el_divisor_make(exponent);
+    for (uint32_t i = 0; i <= EL_HIGHLIGHT_STEPS; i++) {
+        const uint64_t along = (uint64_t)i << STEP_BITS;
+        const bool is_beyond = along >= (uint64_t)exponent << 30;
+        const uint32_t c_q30 = is_beyond ? 0U : (uint32_t)EL_UNIT_Q30 - el_divide_u64(along, &divisor);
+        highlight->power_q15[i] = (uint16_t)((power_q30(c_q30, exponent) + (1U << 14)) >> 15);
+    }
+    return EL_OK;
+}
+
+/* max(0, n . h)^exponent, Q16. */
+static uint32_t highlight_q16(const spot *at, const int32_t to_lamp_q30[3], const el_highlight *highlight)
 {
     int64_t between[3];
     int32_t half_q30[3];
@@ -90,11 +122,17 @@ static uint32_t highlight_q16(const spot *at, const int32_t to_lamp_q30[3], unsi
         return 0;
     }
     const int32_t cosine = cosine_q30(at->normal_q30, half_q30);
-    uint64_t power_q30 = cosine > 0 ? (uint64_t)(uint32_t)cosine : 0U;
-    for (unsigned i = 0; i < shininess_log2; i++) {
-        power_q30 = power_q30 * power_q30 >> 30;
+    if (cosine <= 0) {
+        return 0;
     }
-    return (uint32_t)(power_q30 >> 14);
+    const uint64_t along = (uint64_t)(uint32_t)(EL_UNIT_Q30 - el_min_i32(cosine, EL_UNIT_Q30)) * highlight->exponent;
+    const uint32_t step = (uint32_t)(along >> STEP_BITS);
+    if (step >= EL_HIGHLIGHT_STEPS) {
+        return 0;
+    }
+    const uint32_t nearer = highlight->power_q15[step];
+    const uint32_t fall = nearer - highlight->power_q15[step + 1U]; /* at most 2^15, times less than 2^16 */
+    return (nearer << 1) - (fall * ((uint32_t)(along >> (STEP_BITS - 16)) & 0xFFFFU) >> 15);
 }
 
 static void add_lamp(sums *s, const el_lighting *l, const el_lamp *lamp, const spot *at, bool shines)
@@ -124,7 +162,7 @@ static void add_lamp(sums *s, const el_lighting *l, const el_lamp *lamp, const s
     }
     const uint32_t diffuse_q16 = (uint32_t)((uint64_t)arrives_q16 * (uint32_t)cosine >> 30);
     const uint32_t specular_q16 =
-        shines ? (uint32_t)((uint64_t)arrives_q16 * highlight_q16(at, to_lamp_q30, l->shininess_log2) >> 16) : 0U;
+        shines ? (uint32_t)((uint64_t)arrives_q16 * highlight_q16(at, to_lamp_q30, l->highlight) >> 16) : 0U;
     for (unsigned i = 0; i < 3; i++) {
         s->diffuse_q16[i] += lamp->colour[i] * diffuse_q16;
         s->specular_q16[i] += lamp->colour[i] * specular_q16;
@@ -139,7 +177,7 @@ static uint32_t part_q8(uint32_t colour, uint32_t light_q16)
 
 static void light(const el_lighting *l, const spot *at, const uint8_t own[3], uint8_t colour[3])
 {
-    const bool shines = (l->specular[0] | l->specular[1] | l->specular[2]) != 0;
+    const bool shines = l->highlight != NULL && (l->specular[0] | l->specular[1] | l->specular[2]) != 0;
     sums s = {{0}, {0}};
     for (unsigned i = 0; i < l->lamp_count; i++) {
         add_lamp(&s, l, &l->lamps[i], at, shines);
@@ -195,8 +233,11 @@ static el_status check(const el_lighting *l, const el_mesh *mesh, const el_pose 
         (l->lamp_count > 0 && l->lamps == NULL)) {
         return EL_ERROR_ARGUMENT;
     }
-    if (l->lamp_count > EL_LAMPS_MAX || l->shininess_log2 > EL_SHININESS_LOG2_MAX) {
+    if (l->lamp_count > EL_LAMPS_MAX) {
         return EL_ERROR_SIZE;
+    }
+    if (l->highlight != NULL && (l->highlight->exponent == 0 || l->highlight->exponent > EL_HIGHLIGHT_EXPONENT_MAX)) {
+        return EL_ERROR_MATERIAL;
     }
     for (unsigned i = 0; i < l->lamp_count; i++) {
         const el_lamp *const lamp = &l->lamps[i];

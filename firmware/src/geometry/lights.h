@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-enum { EL_LAMPS_MAX = 32, EL_SHININESS_LOG2_MAX = 7 };
+enum { EL_LAMPS_MAX = 32 };
 
 typedef enum el_lamp_kind {
     EL_LAMP_DIRECTIONAL, /* from far away */
@@ -39,29 +39,42 @@ typedef struct el_lamp {
     int32_t position_q16[3];  /* point and spot */
     uint32_t half_q16;        /* point and spot: 1 / (1 + (distance / half)^2) of the light arrives, a half at that
                                  distance; 0: all of it at any */
-    int32_t inner_q30,
-        outer_q30; /* spot: all of it within the angle of cosine `inner`, none beyond that of `outer`, which
-                                     is less; 3 t^2 - 2 t^3 of it between, t linear in the cosine */
+    /* Spot: all of it within the angle of cosine `inner`, none beyond that of `outer`, which is less; 3 t^2 - 2 t^3 of it
+     * between, t linear in the cosine. */
+    int32_t inner_q30, outer_q30;
 } el_lamp;
+
+/* How a highlight falls off: c^exponent, as a table over (1 - c) * exponent, along which all exponents look nearly alike:
+ * e^-10 and less is nothing. Linear between entries, within 1/4000 of all. The caller's memory, for any number of lightings. */
+enum { EL_HIGHLIGHT_STEP_LOG2 = -5, EL_HIGHLIGHT_STEPS = 10 * 32, EL_HIGHLIGHT_EXPONENT_MAX = 1024 };
+
+typedef struct el_highlight {
+    uint16_t exponent;
+    uint16_t power_q15[EL_HIGHLIGHT_STEPS + 1];
+} el_highlight;
+
+/* `exponent` 1, a broad shine, to EL_HIGHLIGHT_EXPONENT_MAX, a mirror's. EL_ERROR_RANGE: any other. */
+el_status el_highlight_make(el_highlight *highlight, uint32_t exponent);
 
 /* Lamps, and how a surface takes them. Its own colours are the mesh's, or `colour` where that has none. Each channel is
  *
- *     emissive + colour * (ambient + sum of lamp * max(0, n.l)) + specular * sum of lamp * max(0, n.h)^(2^shininess_log2)
+ *     emissive + colour * (ambient + sum of lamp * max(0, n.l)) + specular * sum of lamp * max(0, n.h)^exponent
  *
  * with 255 for 1, at most 255: n the normal, l towards the lamp, h halfway between l and the direction towards the eye
- * (Blinn's); lamps behind the surface have no part in either sum. */
+ * (Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977); lamps behind the surface have no
+ * part in either sum. */
 typedef struct el_lighting {
     const el_lamp *lamps;
     uint8_t lamp_count; /* 0 to EL_LAMPS_MAX */
-    uint8_t shininess_log2;
     uint8_t ambient[3], emissive[3], specular[3];
     uint8_t colour[3];
-    bool two_sided; /* normals that look away from the eye are turned around */
+    const el_highlight *highlight; /* NULL: none, whatever is specular */
+    bool two_sided;                /* normals that look away from the eye are turned around */
 } el_lighting;
 
 /* The colours [vertex_count], within 1/255 of the formula. `colours` may be the mesh's own only if those are not const data.
  * EL_ERROR_ARGUMENT: a NULL. EL_ERROR_MATERIAL: a mesh without normals, a lamp of no kind, a spot whose cosines are the
- * wrong way round. EL_ERROR_SIZE: too many lamps, or too large a shininess_log2. Nothing is written then. */
+ * wrong way round, a highlight that nobody has made. EL_ERROR_SIZE: too many lamps. Nothing is written then. */
 el_status el_light_vertices(const el_lighting *lighting, const el_mesh *mesh, const el_pose *pose,
                             const int32_t eye_q16[3], uint8_t (*colours)[3]);
 

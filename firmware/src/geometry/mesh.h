@@ -5,6 +5,7 @@
 #define EL_GEOMETRY_MESH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/image.h"
@@ -71,6 +72,10 @@ typedef struct el_mesh {
     const int8_t (*normals)[3];           /* [vertex_count] unit normals times 127; or NULL */
     const int16_t (*uvs)[2];              /* [vertex_count] u (right), v (down) in texels, Q12.4: texel (i, j) covers
                                            [i, i+1) x [j, j+1); or NULL */
+#if EL_WITH_WIRES
+    const uint8_t *edges; /* [triangle_count] which edges EL_MATERIAL_WIRES draws: bit i, from corner i to the next one,
+                             in both triangles of the edge; NULL: all */
+#endif
     uint16_t vertex_count;
     uint16_t triangle_count; /* 0 to EL_MESH_MAX_TRIANGLES */
     int8_t scale_log2;       /* one position unit is 2^scale_log2 world units; -30 to 8 */
@@ -79,6 +84,13 @@ typedef struct el_mesh {
     uint16_t cluster_count;
     const el_cluster *clusters; /* [cluster_count] all triangles and all vertices, in their order; or NULL */
 } el_mesh;
+
+#if EL_WITH_WIRES
+static inline unsigned el_mesh_edges(const el_mesh *mesh, uint16_t triangle)
+{
+    return mesh->edges != NULL ? mesh->edges[triangle] : 7U;
+}
+#endif
 
 #ifdef __cplusplus
 }

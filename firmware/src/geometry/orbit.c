@@ -7,8 +7,8 @@
 
 /* geometry/pose.h's limits of a camera. */
 enum { LEAST_NEAR_Q16 = 16, LEAST_HEIGHT_Q16 = 256, WORLD_Q16 = 1 << 30 };
-/* A way that leaves the world from anywhere in it; times 2^30 it is below 2^63. */
-#define FAR_AWAY_Q16 (4LL * WORLD_Q16)
+/* A way that leaves the world from anywhere in it; times an axis, which is at most 2^31 where it is none, it is below 2^63. */
+#define FAR_AWAY_Q16 (4LL * WORLD_Q16 - 1)
 #define MOST_HEIGHT_Q16 (2U * WORLD_Q16)
 
 static uint64_t clamp_u64(uint64_t value, uint64_t least, uint64_t most)
@@ -43,11 +43,12 @@ static uint64_t times_q26(uint64_t value, uint32_t factor_q26)
 
 uint32_t el_orbit_focus_q16(const el_camera *camera)
 {
-    int64_t distance_q46 = 0; /* three products of 2^30 * 2^30 */
+    uint64_t distance_q46 = 0; /* three products of 2^30 * 2^30; modulo 2^64 where the camera is none */
     for (unsigned i = 0; i < 3; i++) {
-        distance_q46 += (int64_t)camera->position_q16[i] * camera->axes_q30[2][i];
+        distance_q46 += (uint64_t)((int64_t)camera->position_q16[i] * camera->axes_q30[2][i]);
     }
-    return (uint32_t)clamp_i64(distance_q46 >> 30, (int64_t)el_min_i32((int32_t)camera->near_q16, WORLD_Q16 / 2) * 2,
+    return (uint32_t)clamp_i64((int64_t)distance_q46 >> 30,
+                               (int64_t)el_min_i32((int32_t)camera->near_q16, WORLD_Q16 / 2) * 2,
                                el_max_i32((int32_t)camera->far_q16, LEAST_NEAR_Q16));
 }
 

@@ -29,6 +29,7 @@ const el_tft_model el_ili9341 = {
     .start_up_count = sizeof start_up / sizeof start_up[0],
     .access = EL_TFT_ACCESS_MX | EL_TFT_ACCESS_BGR, /* column 0 of the memory is on the viewer's right */
     .inverted = 0,
+    .scrolls = 1,
     .low_byte_first = NULL,
     .memory_columns = 240,
     .memory_rows = 320,

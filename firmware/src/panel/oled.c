@@ -44,6 +44,20 @@ static void set_range(const el_oled *panel, bool columns, unsigned begin, unsign
     send_byte(panel, (uint8_t)(end - 1U)); /* it includes its last element */
 }
 
+el_status el_oled_scroll(el_oled *panel, uint8_t by)
+{
+    const el_oled_model *const model = panel->model;
+    if (model->start_line == 0) {
+        return EL_ERROR_ARGUMENT;
+    }
+    if (by >= model->rows) {
+        return EL_ERROR_SIZE;
+    }
+    const bool reversed = panel->lie.sideways ? panel->lie.x_reversed : panel->lie.y_reversed;
+    send_byte(panel, (uint8_t)(model->start_line + (reversed && by > 0 ? model->rows - by : by)));
+    return EL_OK;
+}
+
 /* The bytes along a unit are a range of columns, and units a range of rows; sideways it is the other way round. */
 static void set_bytes(const el_oled *panel, unsigned begin, unsigned end)
 {

@@ -47,6 +47,7 @@ typedef struct el_oled_model {
     uint8_t display_on;            /* command */
     uint8_t column_range;          /* command with two parameters, the first and the last column of bytes */
     uint8_t row_range;             /* the same for rows of bytes */
+    uint8_t start_line;            /* command to which the first row that is seen is added; 0: its memory is no ring */
     uint8_t columns;               /* pixels of the glass, upright; the direction that bytes pack: whole bytes */
     uint8_t rows;
     uint8_t packed_log2;   /* pixels of a byte: 3 for 8 of 1 bit, 1 for 2 of 4 bits */
@@ -92,6 +93,13 @@ typedef struct el_oled {
 
 /* Used by the controllers' init functions, which say what it does. */
 el_status el_oled_init(el_oled *panel, const el_oled_model *model, const el_oled_config *config);
+
+/* Scrolling by the controller, one byte on the wire: each line of the glass - each column, where the module is on its side -
+ * is seen `by` further up (to the left), and what leaves there comes in at the other end, from now on; `by` 0 undoes it.
+ * Frames are drawn as ever, into the lines that they name.
+ * EL_ERROR_ARGUMENT: the controller cannot: the SSD0323 has 16 rows more than its glass, which nobody draws. EL_ERROR_SIZE:
+ * `by` is not below the number of lines. Then nothing was sent. */
+el_status el_oled_scroll(el_oled *panel, uint8_t by);
 
 /* The glass as the viewer sees it, in pixels. */
 uint16_t el_oled_width(const el_oled *panel);

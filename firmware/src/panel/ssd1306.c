@@ -5,6 +5,7 @@ enum {
     CMD_MEMORY_MODE = 0x20,   /* 10.1.3 */
     CMD_COLUMN_RANGE = 0x21,  /* 10.1.4 */
     CMD_PAGE_RANGE = 0x22,    /* 10.1.5 */
+    CMD_START_LINE = 0x40,    /* 10.1.6 */
     CMD_CHARGE_PUMP = 0x8D,   /* application note, 2.1 */
     CMD_SEGMENT_REMAP = 0xA1, /* 10.1.8: column 0 is segment 127 */
     CMD_SHOW_NORMAL = 0xA6,   /* 10.1.10 */
@@ -34,6 +35,7 @@ static const el_oled_model model = {
     .display_on = CMD_DISPLAY_ON,
     .column_range = CMD_COLUMN_RANGE,
     .row_range = CMD_PAGE_RANGE,
+    .start_line = CMD_START_LINE,
     .columns = 128,
     .rows = 64,
     .packed_log2 = 3,

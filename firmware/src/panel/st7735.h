@@ -3,7 +3,7 @@
  *
  * Modules differ in how the glass is bonded to the memory, which the pins GM1 and GM0 of the chip say (9.10); on many, the
  * colour of the tab of the protective film tells it. Wrong: two columns and one line of noise at the edges. High byte
- * first only. */
+ * first only. Neither data sheet has scrolling: el_tft_scroll refuses. */
 #ifndef EL_PANEL_ST7735_H
 #define EL_PANEL_ST7735_H
 

@@ -13,7 +13,9 @@ enum {
     CMD_COLUMN_ADDRESS = 0x2A, /* 8.2.20; 9.1.20; 10.1.19 */
     CMD_ROW_ADDRESS = 0x2B,    /* 8.2.21; 9.1.21; 10.1.20 */
     CMD_MEMORY_WRITE = 0x2C,   /* 8.2.22; 9.1.22; 10.1.21 */
-    CMD_MEMORY_ACCESS = 0x36   /* 8.2.29; 9.1.28; 10.1.26 */
+    CMD_MEMORY_ACCESS = 0x36,  /* 8.2.29; 9.1.28; 10.1.26 */
+    CMD_SCROLL_AREA = 0x33,    /* 8.2.26; 9.1.25; none */
+    CMD_SCROLL_START = 0x37    /* 8.2.30; 9.1.29; none */
 };
 
 enum {
@@ -134,6 +136,31 @@ void el_tft_forget(el_tft *panel)
     panel->stale = true;
 }
 
+/* The controller moves rows of its memory, whichever of them are the viewer's first, and counts all that it has. */
+el_status el_tft_scroll(el_tft *panel, uint16_t first, uint16_t end, uint16_t by)
+{
+    const el_tft_model *const model = panel->config.model;
+    if (!model->scrolls) {
+        return EL_ERROR_ARGUMENT;
+    }
+    if (first >= end || end > model->rows || by >= end - first) {
+        return EL_ERROR_SIZE;
+    }
+    const el_bus *const bus = panel->config.bus;
+    const bool reversed = (memory_access(panel) & EL_TFT_ACCESS_MY) != 0;
+    const unsigned rows = (unsigned)end - first;
+    const unsigned top = model->first_row + (reversed ? (unsigned)model->rows - end : first);
+    const unsigned bottom = model->memory_rows - top - rows;
+    const unsigned start = top + (reversed && by > 0 ? rows - by : by);
+    const uint8_t area[6] = {(uint8_t)(top >> 8), (uint8_t)top,           (uint8_t)(rows >> 8),
+                             (uint8_t)rows,       (uint8_t)(bottom >> 8), (uint8_t)bottom};
+    const uint8_t line[2] = {(uint8_t)(start >> 8), (uint8_t)start};
+    send(bus, CMD_SCROLL_AREA, area, sizeof area);
+    send(bus, CMD_SCROLL_START, line, sizeof line);
+    panel->next_line = NO_LINE; /* no pixel goes on where the last one was */
+    return EL_OK;
+}
+
 static void set_range(const el_bus *bus, uint8_t code, unsigned begin, unsigned end)
 {
     /* The controller's ranges include their last element. */
@@ -227,6 +254,15 @@ static void sent(void *argument)
     el_band_release(loan->band, loan->slot);
 }
 
+/* The bus may still be sending the other band, so each has its own entry. */
+static struct el_tft_loan *take_loan(el_tft *panel, el_band *band, unsigned slot)
+{
+    struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
+    panel->next_loan ^= 1U;
+    *loan = (struct el_tft_loan){.band = band, .slot = slot};
+    return loan;
+}
+
 /* The lines of a band, counted from its first, that are sent whatever they show; empty where top is not above bottom. */
 static void find_due(const el_tft *panel, unsigned y, unsigned lines, unsigned *top, unsigned *bottom)
 {
@@ -269,11 +305,32 @@ static void set_window(el_tft *panel, unsigned y, const el_shown_part *part)
     panel->next_line = (uint16_t)(y + part->bottom);
 }
 
+/* Of an interlaced frame: a window for each line, of 6 bytes, since its columns are set once. What is on the glass is of two
+ * frames then, so the next one without gaps is sent whole. */
+static EL_SELDOM void send_lines(el_tft *panel, el_band *band, struct el_tft_loan *loan)
+{
+    const el_shown_part line = {.right = band->width, .bottom = 1};
+    if (panel->swap) {
+        swap_bytes(band->pixels, (size_t)band->lines * band->width);
+    }
+    for (unsigned i = 0; i < band->lines; i++) {
+        const bool is_last = i + 1U == band->lines;
+        set_window(panel, band->y + i * (1U + band->gap), &line);
+        send_pixels(panel, band->pixels + (size_t)i * band->width, band->width, is_last ? sent : nothing_to_release,
+                    loan);
+    }
+    panel->stale = true;
+}
+
 static void rows(void *context, el_band *band, unsigned slot)
 {
     el_tft *const panel = context;
     if (!panel->fits) {
         el_band_release(band, slot);
+        return;
+    }
+    if (band->gap != 0) {
+        send_lines(panel, band, take_loan(panel, band, slot));
         return;
     }
     const el_shown_part part = find_part(panel, band);
@@ -285,10 +342,7 @@ static void rows(void *context, el_band *band, unsigned slot)
             return;
         }
     }
-    /* The bus may still be sending the other band, so each has its own entry. */
-    struct el_tft_loan *const loan = &panel->loans[panel->next_loan];
-    panel->next_loan ^= 1U;
-    *loan = (struct el_tft_loan){.band = band, .slot = slot};
+    struct el_tft_loan *const loan = take_loan(panel, band, slot);
     uint16_t *const pixels = EL_WITH_REUSE ? el_shown_pack(band->pixels, band->width, &part) : band->pixels;
     if (panel->swap) {
         swap_bytes(pixels, count);
@@ -338,5 +392,6 @@ el_sink el_tft_sink(el_tft *panel)
                      .rows = rows,
                      .unchanged = EL_WITH_REUSE ? unchanged : NULL,
                      .end = end,
-                     .wait = wait};
+                     .wait = wait,
+                     .takes_gaps = true};
 }

@@ -41,6 +41,7 @@ typedef struct el_tft_model {
     uint8_t start_up_count;
     uint8_t access;                       /* memory access control of the upright module: EL_TFT_ACCESS_... */
     uint8_t inverted;                     /* 1: the glass needs display inversion for true colours (IPS glass) */
+    uint8_t scrolls;                      /* 1: it has el_tft_scroll's commands */
     const el_tft_command *low_byte_first; /* makes the controller take that byte order; NULL: it cannot */
     uint16_t memory_columns;              /* the controller's memory, ... */
     uint16_t memory_rows;
@@ -118,6 +119,15 @@ el_status el_tft_init(el_tft *panel, const el_tft_config *config);
 /* Says that the display may show anything: something else was sent to it, or it had no power. The next frame is sent
  * whole. So is the first one after el_tft_init. */
 void el_tft_forget(el_tft *panel);
+
+/* Scrolling by the controller: 10 bytes on the wire in place of a picture. Of lines [first, end) of the glass - of its
+ * columns, where the module is on its side - each is seen `by` further up (to the left), and what leaves there comes in at
+ * the other end, from now on; `by` 0 undoes it. Frames are drawn as ever, into the lines that they name: line y is what is
+ * seen at first + (y - first - by) mod (end - first). So a text that scrolls, or a plot, draws what comes in alone, in a
+ * ring of lines, and with el_tft_config.shown only that is sent.
+ * EL_ERROR_ARGUMENT: the controller cannot (ST7735). EL_ERROR_SIZE: no lines, or more than the glass has, or by is not
+ * below their number. Then nothing was sent. Not while the renderer is in a frame of this sink: it may tear. */
+el_status el_tft_scroll(el_tft *panel, uint16_t first, uint16_t end, uint16_t by);
 
 /* The glass as the viewer sees it, in pixels. */
 uint16_t el_tft_width(const el_tft *panel);

@@ -90,6 +90,27 @@ uint32_t el_depth_row_take(el_depth_row *row)
     return (uint32_t)(depth - begin);
 }
 
+uint32_t el_depth_row_pass(el_depth_row *row)
+{
+    const uint64_t step = row->step;
+    uint16_t *depth = row->next;
+    uint64_t z = row->z;
+    while (depth != row->end && (uint32_t)(z >> 32) < *depth) {
+        if (((uintptr_t)depth & 2U) == 0 && row->end - depth >= BLOCK &&
+            is_beyond(depth, (uint32_t)(z >> 32) + row->farther)) {
+            z += step * BLOCK;
+            depth += BLOCK;
+        } else {
+            depth++;
+            z += step;
+        }
+    }
+    const uint32_t passed = (uint32_t)(depth - row->next);
+    row->z = z;
+    row->next = depth;
+    return passed;
+}
+
 uint32_t el_depth_row_skip(el_depth_row *row)
 {
     uint64_t z = row->z;

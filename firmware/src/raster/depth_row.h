@@ -40,6 +40,9 @@ static inline void el_depth_row_begin(el_depth_row *row, uint16_t *depth, uint32
 /* Goes on as far as pixels are nearer than what is there, which they become. Returns how many. */
 uint32_t el_depth_row_take(el_depth_row *row);
 
+/* The same, and leaves what is there. */
+uint32_t el_depth_row_pass(el_depth_row *row);
+
 /* Goes on as far as pixels are not nearer. Returns how many. */
 uint32_t el_depth_row_skip(el_depth_row *row);
 

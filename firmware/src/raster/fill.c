@@ -5,6 +5,7 @@
 
 #include "base/dither.h"
 #include "base/fixed.h"
+#include "raster/field.h"
 #include "raster/small_gouraud.h"
 #include "raster/small_triangle.h"
 
@@ -23,7 +24,7 @@ static EL_SPECIALISED int32_t fill_plain(el_triangle *triangle, const el_target 
 {
     const uint32_t flat = triangle->surface.colour;
     const int32_t width = target->width;
-    uint32_t y = (uint32_t)triangle->y;
+    uint32_t y = (uint32_t)el_screen_row(target->field, triangle->y);
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
     el_spans spans;
     const int32_t rows = el_spans_next(triangle, target, stats, &spans);
@@ -50,7 +51,7 @@ static EL_SPECIALISED int32_t fill_plain(el_triangle *triangle, const el_target 
         }
         el_values_add(&s.first, &s.per_row, kind);
         cursor.row += width;
-        y++;
+        y += el_field_step(target->field);
     }
     el_slopes_keep(&s, triangle, kind);
     return rows;

@@ -4,27 +4,45 @@
 
 #include "raster/fill.h"
 #include "raster/fog.h"
-#include "raster/sampler.h"
+#include "raster/texel_line.h"
 #include "raster/texture_walk.h"
 
 #if EL_WITH_MIXED
+/* How pixels come to the screen. */
+typedef enum el_mixed_way {
+    EL_MIXED_OPAQUE,
+    EL_MIXED_BLENDED, /* with one alpha for all */
+    EL_MIXED_TESTED,  /* texels show or do not */
+    EL_MIXED_SHOWN    /* texels have an alpha each */
+} el_mixed_way;
+
 /* What the pixels of a triangle are drawn with. */
 typedef struct el_mixed_brush {
     unsigned kind;
+    el_mixed_way way;
     uint16_t flat;
-    bool is_tested; /* texels show or do not */
     bool writes_depth;
     uint32_t alpha; /* 0..256 */
     const el_fog *fog;
     el_slopes slopes;
-#if EL_WITH_TEXTURE
-    el_sampler sampler;
     el_texture_walk walk;
+    el_sampler sampler;
+#if !EL_SMALL_CODE
+    el_texel_line texels; /* the sampler's */
 #endif
 } el_mixed_brush;
 
 /* What it points to stays the triangle's. */
 void el_mixed_brush_begin(el_mixed_brush *b, const el_triangle *triangle);
+
+/* Pixels [x, x_end) of a row, one at least. */
+typedef struct el_mixed_span {
+    uint32_t y, x, x_end;
+    uint16_t *row, *depth; /* from column 0 on */
+} el_mixed_span;
+
+/* Draws it, in the row that the brush's slopes and these planes are at. */
+void el_mixed_draw_span(el_mixed_brush *b, const el_mixed_span *span, const el_perspective *planes);
 
 #if EL_WITH_SAMPLES
 /* Draws pixels [x, x_end) of the triangle's next row, one at least, into `row` and `depth`, which begin in column 0. */

@@ -2,6 +2,7 @@
  * time, as in fill.c. */
 #include "base/fixed.h"
 #include "raster/depth_row.h"
+#include "raster/field.h"
 #include "raster/fill.h"
 #include "raster/texel_row.h"
 #include "raster/texture_walk.h"
@@ -24,34 +25,14 @@ static EL_SPECIALISED void draw_last(brush *b, uint16_t *colour)
 
 /* Lights the texels of pixels [x, x_end), one at least. They were drawn before, so that neither loop has to keep what the
  * other needs: together they have more than any core has registers, and pieces are shorter than what light goes along. */
-static EL_SPECIALISED void light_any(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
-{
-    el_values light = el_values_at(&b->slopes, (int32_t)x, kind);
-    const el_values step = b->slopes.per_column;
-    el_dither_row thresholds = el_dither_row_at(x, b->y);
-    uint16_t *pixel = row + x;
-    const uint16_t *const end = row + x_end;
-    if ((step.red | step.green | step.blue) == 0) {
-        /* A surface in one colour, or one that faces the light everywhere alike. */
-        do {
-            *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
-        } while (++pixel != end);
-        return;
-    }
-    do {
-        *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
-        el_values_add(&light, &step, kind);
-    } while (++pixel != end);
-}
-
 static __attribute__((noinline)) void light_plain(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
 {
-    light_any(b, row, x, x_end, EL_FILL_COLOURS);
+    el_light_row(&b->slopes, b->y, x, row + x, row + x_end, EL_FILL_COLOURS);
 }
 
 static __attribute__((noinline)) void light_dithered(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end)
 {
-    light_any(b, row, x, x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
+    el_light_row(&b->slopes, b->y, x, row + x, row + x_end, EL_FILL_COLOURS | EL_FILL_DITHER);
 }
 
 static EL_SPECIALISED void light(const brush *b, uint16_t *row, uint32_t x, uint32_t x_end, unsigned kind)
@@ -136,7 +117,7 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
 {
     brush b;
     b.texels = el_texels_of(triangle->surface.texture);
-    b.y = (uint32_t)triangle->y;
+    b.y = (kind & EL_FILL_DITHER) != 0 ? (uint32_t)el_screen_row(target->field, triangle->y) : 0U;
     el_texture_walk_start(&b.walk, triangle);
     const el_perspective *const planes = &triangle->perspective;
     el_cursor cursor = el_cursor_at(target, triangle->y, kind);
@@ -157,7 +138,9 @@ static EL_SPECIALISED int32_t fill(el_triangle *triangle, const el_target *targe
         el_values_add(&b.slopes.first, &b.slopes.per_row, kind);
         el_perspective_next_row(&triangle->perspective);
         cursor.row += target->width;
-        b.y++;
+        if ((kind & EL_FILL_DITHER) != 0) {
+            b.y += el_field_step(target->field);
+        }
     }
     el_slopes_keep(&b.slopes, triangle, kind);
     return rows;

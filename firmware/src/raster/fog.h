@@ -40,11 +40,15 @@ el_status el_fog_exponential(el_fog *fog, const el_camera *camera, uint16_t colo
 /* --- For the fills ------------------------------------------------------------------------------------------------------ */
 
 /* log2 of `nearness`, above 0, its fraction taken to be linear between powers of two, Q16: a step of the table is a step of
- * nearness, from one power to the next. */
+ * nearness, from one power to the next. `leading` are its leading zeros. */
+static inline uint32_t el_fog_place_of(uint32_t nearness, uint32_t leading)
+{
+    return ((31U - leading) << 16) + (nearness << leading >> 15);
+}
+
 static inline uint32_t el_fog_place(uint32_t nearness)
 {
-    const uint32_t leading = el_leading_zeros(nearness);
-    return (32U - leading) << 16 | (nearness << leading >> 15 & 0xFFFFU);
+    return el_fog_place_of(nearness, el_leading_zeros(nearness));
 }
 
 /* Whether one of the functions above made it: nearness is above 0 at all depths. */
@@ -53,23 +57,29 @@ static inline bool el_fog_is_made(const el_fog *fog)
     return fog->scale_q12 > (uint32_t)EL_DEPTH_MAX << 12 && fog->step_log2 <= 16;
 }
 
-/* How much of the fog lies before that depth, 0 to EL_DEPTH_MAX: 0..256. */
-static inline uint32_t el_fog_at(const el_fog *fog, uint32_t depth)
+/* How much of the fog lies before that place: 0..256. */
+static inline uint32_t el_fog_at_place(const el_fog *fog, uint32_t place)
 {
-    const uint32_t place = el_fog_place(fog->scale_q12 - (depth << 12));
     if (place <= fog->end) {
         return (fog->alpha_q7[0] + 64U) >> 7;
     }
     const uint32_t along = place - fog->end;
-    const uint32_t step = along >> fog->step_log2;
+    const uint32_t step_log2 = fog->step_log2;
+    const uint32_t step = along >> step_log2;
     if (step > EL_FOG_STEPS) {
         return 0;
     }
     /* Alpha falls towards the camera: differences are 2^15 at most, along in a step below 2^16. */
     const uint32_t farther = fog->alpha_q7[step];
     const uint32_t fall = farther - fog->alpha_q7[step + 1U];
-    const uint32_t in_step = along & ((1U << fog->step_log2) - 1U);
-    return (farther - (fall * in_step >> fog->step_log2) + 64U) >> 7;
+    const uint32_t in_step = along - (step << step_log2);
+    return (farther - (fall * in_step >> step_log2) + 64U) >> 7;
+}
+
+/* The same at a depth, 0 to EL_DEPTH_MAX. */
+static inline uint32_t el_fog_at(const el_fog *fog, uint32_t depth)
+{
+    return el_fog_at_place(fog, el_fog_place(fog->scale_q12 - (depth << 12)));
 }
 
 #ifdef __cplusplus

@@ -340,7 +340,7 @@ unsigned el_list_gather_depth(const el_list *list, const el_record *record, el_c
     *surface = (el_surface){
         .shading = EL_SHADE_FLAT,
         .depth = (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && el_shading_of(draw) != EL_SHADE_OVERDRAW &&
-                 !el_draws_mixed(draw),
+                 !el_is_drawn_apart(draw),
     };
     if (!surface->depth) {
         return 0U;

@@ -4,6 +4,9 @@
 
 #include "base/fixed.h"
 #include "raster/edge.h"
+#include "raster/field.h"
+#include "raster/triangle.h"
+#include "raster/wires.h"
 
 void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, uint16_t bin_count, uint16_t band_lines)
 {
@@ -16,6 +19,9 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
     list->has_gaps = false;
 #if EL_WITH_SAMPLES
     list->reach = 0;
+#endif
+#if EL_WITH_INTERLACED
+    list->field = EL_FIELD_NONE;
 #endif
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
@@ -131,19 +137,20 @@ void el_list_join(el_list *list, const el_list *more, uint32_t begin)
 }
 #endif
 
-static int32_t first_row(const el_list *list, const el_record *record, el_record_kind kind)
+static int32_t first_row(const el_list *list, const el_record *record, el_record_kind kind, int32_t reach)
 {
     if (EL_WITH_THIN && kind == EL_RECORD_THIN) {
         return record->at.row;
     }
     const el_point *const points = record->at.points;
-    const int32_t reach = EL_WITH_SAMPLES ? list->reach : 0;
-    return el_first_centre(el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y)) - reach);
+    const int32_t top = el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y));
+    return el_field_row(el_list_field(list), el_first_centre(top - reach));
 }
 
 typedef struct run_records {
     uint32_t begin, end; /* bytes from the list's base */
     el_record_kind kind;
+    int32_t reach; /* as in a culling (frame/cull.h) */
 } run_records;
 
 /* Moves the records of one run that begin above row_end to the end of the list's new part, `wanted` being their kind
@@ -164,7 +171,7 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
         }
         at += el_list_record_bytes(from->kind);
         kept = 0;
-        const int32_t row = first_row(list, (const el_record *)(const void *)old, from->kind);
+        const int32_t row = first_row(list, (const el_record *)(const void *)old, from->kind, from->reach);
         if (row >= row_end) {
             continue;
         }
@@ -178,6 +185,18 @@ static void move_records(el_list *list, const run_records *from, el_record_kind 
         list->used += el_list_record_bytes(wanted);
         kept = el_list_name(list, record);
     }
+}
+
+/* How far beyond its corners a draw's triangles have pixels. */
+static int32_t reach_of(const el_list *list, const el_draw_state *draw)
+{
+#if EL_WITH_WIRES
+    if (el_draws_wires(draw)) {
+        return EL_WIRE_REACH;
+    }
+#endif
+    (void)draw;
+    return EL_WITH_SAMPLES ? list->reach : 0;
 }
 
 /* Walks the list and writes what is kept over it: what is written never reaches what is still to be read. */
@@ -215,7 +234,8 @@ static void compact(el_list *list, int32_t row_begin, int32_t row_end, bool make
             draw_end = list->used;
         }
         const uint32_t records_at = list->used;
-        const run_records from = {.begin = at, .end = old_end, .kind = kind};
+        const el_draw_state *const state = (const el_draw_state *)el_list_at(list, run->draw);
+        const run_records from = {.begin = at, .end = old_end, .kind = kind, .reach = reach_of(list, state)};
         move_records(list, &from, wanted, row_begin, row_end);
         at = old_end;
         run->end = (uint16_t)(list->used / EL_LIST_UNIT);

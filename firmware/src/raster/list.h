@@ -48,14 +48,17 @@ typedef enum el_record_kind {
 } el_record_kind;
 
 enum { EL_DRAW_MIRRORED = 1 }; /* front faces run clockwise on the screen */
-_Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED)) == 0, "they share a byte");
+#ifndef __cplusplus            /* edgeline.h leads here, and there these words are others */
+_Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED | EL_FINISH_WIRES)) == 0, "they share a byte");
+_Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+#endif
 
 /* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
     const el_mesh *mesh;
     const el_material *material;
     int16_t light_q14[3]; /* direction towards the light in model space */
-    uint8_t flags;        /* EL_DRAW_MIRRORED; with EL_WITH_MIXED EL_FINISH_ of its surfaces, too */
+    uint8_t flags;        /* EL_DRAW_MIRRORED, EL_FINISH_WIRES; with EL_WITH_MIXED EL_FINISH_ of its surfaces, too */
 #if EL_WITH_DEBUG_VIEWS
     uint8_t reshading : 3; /* bits of the material's el_shading that the frame's view turns around */
     uint8_t number : 5;    /* of the draw call in its pass, modulo 32 */
@@ -78,7 +81,6 @@ static inline el_shading el_shading_of(const el_draw_state *draw)
 /* EL_FINISH_DITHER, if what is shaded so is dithered. */
 static inline unsigned el_dithering_of(const el_material *material, el_shading shading)
 {
-    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
     return (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
 }
 
@@ -89,18 +91,19 @@ static inline unsigned el_finish_of(const el_draw_state *draw, el_shading shadin
     (void)shading;
     return draw->flags;
 #else
-    return el_dithering_of(draw->material, shading);
+    return el_dithering_of(draw->material, shading) | (draw->flags & (unsigned)EL_FINISH_WIRES);
 #endif
 }
 
-static inline bool el_draws_mixed(const el_draw_state *draw)
+static inline bool el_draws_wires(const el_draw_state *draw)
 {
-#if EL_WITH_MIXED
-    return (draw->flags & EL_FINISH_MIXED) != 0;
-#else
-    (void)draw;
-    return false;
-#endif
+    return (draw->flags & EL_FINISH_WIRES) != 0;
+}
+
+/* Whether the draw's triangles are not drawn as all others are: mixed, or wires. */
+static inline bool el_is_drawn_apart(const el_draw_state *draw)
+{
+    return (draw->flags & (EL_FINISH_MIXED | EL_FINISH_WIRES)) != 0;
 }
 
 /* Whether a triangle of that doubled area (el_doubled_area, not 0) shows its back. */
@@ -146,17 +149,23 @@ typedef struct el_attributes {
 
 typedef struct el_record_clipped {
     el_record_perspective perspective;
-    el_attributes attributes[3];
+    union {
+        el_attributes attributes[3];
+        uint8_t edges; /* of wires: bit i, from corner i to the next one */
+    };
 } el_record_clipped;
 
 typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
-    bool is_shared;     /* triangles have shares */
-    bool has_gaps;      /* el_list_keep_rows closes them */
-    uint8_t reach;      /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+    bool is_thin;   /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    bool is_shared; /* triangles have shares */
+    bool has_gaps;  /* el_list_keep_rows closes them */
+    uint8_t reach;  /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+#if EL_WITH_INTERLACED
+    uint8_t field; /* el_field: rows are its lines */
+#endif
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */
@@ -164,6 +173,17 @@ typedef struct el_list {
     uint32_t used;  /* bytes */
     uint16_t *bins; /* last record of each band; 0: none */
 } el_list;
+
+/* The frame's el_field. */
+static inline uint8_t el_list_field(const el_list *list)
+{
+#if EL_WITH_INTERLACED
+    return list->field;
+#else
+    (void)list;
+    return 0; /* EL_FIELD_NONE */
+#endif
+}
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
 {

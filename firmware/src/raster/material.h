@@ -33,6 +33,9 @@ enum {
     EL_MATERIAL_NO_DEPTH = 2,  /* neither tests nor writes depth: what is drawn later covers what was earlier */
     EL_MATERIAL_FLAT_MEAN = 4, /* flat: the mean of the three vertices' colours instead of the first vertex' */
     EL_MATERIAL_DITHER = 8,    /* vertex colours and light: 4x4 ordered dithering to the display's levels (dither.h) */
+#if EL_WITH_WIRES
+    EL_MATERIAL_WIRES = 32, /* draws edges, below, in place of what is within */
+#endif
     EL_MATERIAL_BLEND_DEPTH = 16 /* what is blended writes depth, too; not with el_config.depth_prepass */
 };
 
@@ -48,7 +51,13 @@ typedef struct el_light {
  * What is blended (alpha of 1 to 254, or a texture's image with alpha) is mixed with what is drawn already: a weight of
  * el_alpha_256(alpha) / 256, times the texel's, rounded to nearest; el_rgb565_blend mixes. It is tested by depth, and leaves
  * depth as it is. So draw opaque things first, and then what is blended from the back to the front: within a mesh its
- * triangles are drawn in their order, and meshes in the order of submission, whatever bands, passes and arenas there are. */
+ * triangles are drawn in their order, and meshes in the order of submission, whatever bands, passes and arenas there are.
+ *
+ * Wires (EL_MATERIAL_WIRES) are the edges of those triangles that would be drawn, or those of them that el_mesh.edges names:
+ * lines of one pixel (wires.h), flat and opaque, in the material's colour whatever colours and light there are. Draw them
+ * after the surface that they belong to: they are tested as if they were a little nearer, as much as that surface may change
+ * its depth over half a pixel. A surface that is blended with an alpha of 1 and EL_MATERIAL_BLEND_DEPTH hides what is behind
+ * it and leaves colours as they are: lines over anything, without hidden ones. With EL_MATERIAL_NO_DEPTH all are seen. */
 typedef struct el_material {
     uint8_t shading;   /* el_shading */
     uint8_t flags;     /* EL_MATERIAL_ */
@@ -66,7 +75,8 @@ typedef struct el_material {
 /* What a surface needs beside its shading. */
 enum {
     EL_FINISH_DITHER = EL_WITH_GOURAUD && EL_WITH_DITHER ? 16 : 0, /* Gouraud and textured times Gouraud alone */
-    EL_FINISH_MIXED = EL_WITH_MIXED ? 32 : 0                       /* el_fill_mixed; not with overdraw */
+    EL_FINISH_MIXED = EL_WITH_MIXED ? 32 : 0,                      /* el_fill_mixed; not with overdraw */
+    EL_FINISH_WIRES = EL_WITH_WIRES ? 64 : 0                       /* el_wires_draw; flat alone */
 };
 
 static inline bool el_is_lit(const el_material *material)

@@ -51,7 +51,7 @@ static inline el_run_look el_look_at_run(const el_list *list, uint16_t name, int
     const el_draw_state *const draw = (const el_draw_state *)el_list_at(list, run->draw);
     /* By its material and as it is shaded: a texture that is left out has a colour of its own. */
     if (draw->material->shading == EL_SHADE_FLAT && el_shading_of(draw) == EL_SHADE_FLAT &&
-        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !el_draws_mixed(draw)) {
+        (draw->material->flags & EL_MATERIAL_NO_DEPTH) == 0 && !el_is_drawn_apart(draw)) {
         if (EL_WITH_THIN && run->kind == EL_RECORD_THIN) {
             look.thin = draw;
         } else {

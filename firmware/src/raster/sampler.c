@@ -33,6 +33,8 @@ void el_sampler_make(el_sampler *sampler, const el_texture *texture)
 #if EL_WITH_MIXED
     if (texture->image != NULL) {
         sampler->image = *texture->image;
+        sampler->is_open =
+            sampler->image.has_key || sampler->image.alpha != NULL || sampler->image.format == EL_IMAGE_MASK;
     }
     wrap_u = texture->wrap_u;
     wrap_v = texture->wrap_v;

@@ -1,5 +1,5 @@
 /* Texels of any texture: its format, size, what lies beyond its borders, the nearest or four of them. One way for all, which
- * asks at each texel; the loops of fill_texture.c do without it. Private to the renderer. */
+ * asks at each texel; the loops of fill_texture.c and texel_line.c do without it. Private to the renderer. */
 #ifndef EL_RASTER_SAMPLER_H
 #define EL_RASTER_SAMPLER_H
 
@@ -23,6 +23,7 @@ typedef struct el_sampler {
     el_image image;
     el_sampler_axis u, v;
     bool smooth;
+    bool is_open; /* not all of it shows */
 } el_sampler;
 
 void el_sampler_make(el_sampler *sampler, const el_texture *texture);

@@ -42,4 +42,24 @@ static EL_SPECIALISED uint16_t el_modulate(uint32_t texel, const el_values *v, u
                       el_lit(texel & 31U, v->blue, threshold_q16, kind));
 }
 
+/* Lights texels from `pixel` on, which is in column x of row y, up to `end`, one at least. */
+static EL_SPECIALISED void el_light_row(const el_slopes *slopes, uint32_t y, uint32_t x, uint16_t *pixel,
+                                        const uint16_t *end, unsigned kind)
+{
+    el_values light = el_values_at(slopes, (int32_t)x, kind);
+    const el_values step = slopes->per_column;
+    el_dither_row thresholds = el_dither_row_at(x, y);
+    if ((step.red | step.green | step.blue) == 0) {
+        /* A surface in one colour, or one that faces the light everywhere alike. */
+        do {
+            *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        } while (++pixel != end);
+        return;
+    }
+    do {
+        *pixel = el_modulate(*pixel, &light, el_dither_row_next_q16(&thresholds), kind);
+        el_values_add(&light, &step, kind);
+    } while (++pixel != end);
+}
+
 #endif

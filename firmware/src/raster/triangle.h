@@ -93,13 +93,17 @@ void el_triangle_setup_planes(el_triangle *triangle, const el_corner *const sort
 /* Makes `depth` draw the depth of what `triangle` is about to draw, if it has one; flat, in the same colour. */
 void el_triangle_take_depth(el_triangle *depth, const el_triangle *triangle);
 
-/* Where to draw: the rows [y, y_end) of the screen. */
+/* Which lines of the screen a frame draws. */
+typedef enum el_field { EL_FIELD_NONE, EL_FIELD_EVEN, EL_FIELD_ODD } el_field;
+
+/* Where to draw: the rows [y, y_end) of the screen, or lines of a field (field.h). */
 typedef struct el_target {
     uint16_t *colour; /* width pixels per row */
     uint16_t *depth;  /* width values per row */
     int32_t width;
     int32_t y;
     int32_t y_end;
+    uint8_t field; /* el_field: all of the screen's rows where it is 0 */
 } el_target;
 
 /* Draws the triangle's rows from triangle->y to the target's last and moves it on to the row after them.

@@ -118,6 +118,32 @@ static void take_line(el_stream *stream, const uint16_t *pixels, const uint16_t 
     frame->digest = el_changes_digest(frame->digest, el_changes_line_crc(sent, width, stream->segment));
 }
 
+/* Of an interlaced frame, lines up to `end` that it leaves as they are: what was sent of them last. */
+static void keep_lines(el_stream *stream, uint32_t end)
+{
+    const uint32_t width = stream->config.width;
+    const uint32_t segments = (width - 1) / stream->segment + 1;
+    el_stream_frame *const frame = &stream->frame;
+
+    for (; frame->next_line < end; frame->next_line++) {
+        const uint32_t *const sent = stream->crcs + frame->next_line * segments;
+        frame->digest = el_changes_digest(frame->digest, el_changes_line_crc(sent, width, stream->segment));
+    }
+}
+
+/* Lines with gaps: each goes in a packet of its own, since what is above it is not at hand. */
+static void take_field(el_stream *stream, const el_band *band)
+{
+    stream->frame.mixed = true;
+    for (uint32_t line = 0; line < band->lines && stream->frame.sending; line++) {
+        const uint32_t y = band->y + line * (1U + band->gap);
+        keep_lines(stream, y);
+        take_line(stream, band->pixels + (size_t)line * band->width, NULL, y);
+        stream->frame.next_line = (uint16_t)(y + 1U);
+        el_stream_end_bands(stream);
+    }
+}
+
 static void take_lines(el_stream *stream, const el_band *band)
 {
     const uint16_t *above = stream->last_line;
@@ -142,7 +168,11 @@ static void rows(void *context, el_band *band, unsigned slot)
     if (stream->frame.sending) {
         const uint32_t begin_us = el_stream_now_us(stream);
         const uint32_t begin_cycles = now_cycles(stream);
-        take_lines(stream, band);
+        if (band->gap != 0) {
+            take_field(stream, band);
+        } else {
+            take_lines(stream, band);
+        }
         stream->frame.encode_us += el_stream_now_us(stream) - begin_us;
         stream->frame.encode_cycles += now_cycles(stream) - begin_cycles;
     } else if (stream->rate.changing) { /* the host waits for it, and a frame may take long */
@@ -213,6 +243,9 @@ static bool finish(el_stream *stream, const el_stats *stats)
     if (frame->sending) {
         const uint32_t begin_us = el_stream_now_us(stream);
         const uint32_t begin_cycles = now_cycles(stream);
+        if (frame->next_line > 0) {
+            keep_lines(stream, stream->config.height);
+        }
         el_stream_end_bands(stream);
         frame->encode_us += el_stream_now_us(stream) - begin_us;
         frame->encode_cycles += now_cycles(stream) - begin_cycles;
@@ -272,5 +305,7 @@ el_sink el_stream_sink(el_stream *stream)
                      .rows = rows,
                      .unchanged = EL_WITH_REUSE ? unchanged : NULL,
                      .end = end,
-                     .wait = wait};
+                     .wait = wait,
+                     /* One way, every frame has all lines. */
+                     .takes_gaps = !stream->config.one_way};
 }

@@ -69,9 +69,12 @@ def files_of(args: argparse.Namespace, name: str, result: Result) -> list[tuple[
         return [(output, c_header(name, about, result.meshes).encode("utf-8", "backslashreplace"))]
     if len(result.meshes) == 1:
         named = result.meshes[0]
-        return [(output, elm.encode(named.mesh, named.texture))]
+        return [(output, elm.encode(named.mesh, named.texture, named.material))]
     return [
-        (output.with_name(f"{output.stem}-{one.name.removeprefix(name + '_')}.elm"), elm.encode(one.mesh, one.texture))
+        (
+            output.with_name(f"{output.stem}-{one.name.removeprefix(name + '_')}.elm"),
+            elm.encode(one.mesh, one.texture, one.material),
+        )
         for one in result.meshes
     ]
 

@@ -1,13 +1,13 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations, transparency. Refused: extensions that a
+Left out, each with a note: points and lines, skins, morph targets, animations. Refused: extensions that a
 file requires and that are not known here, compression above all.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -15,17 +15,21 @@ import numpy.typing as npt
 from edgeline.convert.gltf_file import GltfFile, Json, open_gltf
 from edgeline.convert.mesh import Floats, Ints
 from edgeline.convert.source import Part, Picture, Source, as_floats, check_count, check_positions, to_bytes
-from edgeline.convert.texture import encoded
+from edgeline.convert.texels import Wrap
+from edgeline.convert.texture import Alpha, encoded
 from edgeline.errors import EdgelineError
 
 KNOWN_EXTENSIONS = {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit"}
 TRIANGLES, STRIP, FAN = 4, 5, 6
 REPEAT = 10497
+WRAPS = {REPEAT: Wrap.REPEAT, 33071: Wrap.CLAMP, 33648: Wrap.MIRROR}
+LINEAR = 9729
+ALPHAS = {"OPAQUE": Alpha.NONE, "MASK": Alpha.TEST, "BLEND": Alpha.BLEND}
 
 
 @dataclass(frozen=True)
 class Material:
-    """`factor` in linear light; `image` the number of its image, `uv_set` whose coordinates it has."""
+    """`factor` in linear light, `opacity` of 255; `image` is its image's number, `uv_set` whose coordinates it has."""
 
     name: str
     factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
@@ -34,7 +38,20 @@ class Material:
     offset: tuple[float, float] = (0.0, 0.0)
     rotation: float = 0.0
     scale: tuple[float, float] = (1.0, 1.0)
-    repeats: bool = True
+    wrap: tuple[Wrap, Wrap] = (Wrap.REPEAT, Wrap.REPEAT)
+    smooth: bool = False
+    alpha: Alpha = Alpha.NONE
+    cutoff: float = 0.5
+    opacity: int = 255
+    two_sided: bool = False
+
+    @property
+    def look(self) -> object:
+        """What triangles have to share to be one part."""
+        drawn = self.two_sided, self.opacity
+        if self.image is None:
+            return drawn
+        return drawn, self.image, self.factor, self.wrap, self.smooth, self.alpha, self.cutoff
 
 
 @dataclass(frozen=True)
@@ -121,35 +138,46 @@ class _Reader:
     def read_material(self, material: Json, where: str) -> Material:
         file = self.file
         name = file.value(material, where, "name", str, where)
-        if file.value(material, where, "alphaMode", str, "OPAQUE") != "OPAQUE":
-            self.note(f"{name}: transparency is not drawn; its triangles are opaque")
-        if file.value(material, where, "doubleSided", bool, False):
-            self.note(f"{name}: two-sided; give its el_material the flag EL_MATERIAL_TWO_SIDED")
+        mode = file.value(material, where, "alphaMode", str, "OPAQUE")
+        if mode not in ALPHAS:
+            raise file.error(f"{where}: 'alphaMode' is {mode:.20}")
+        two_sided = file.value(material, where, "doubleSided", bool, False)
         surface = file.value(material, where, "pbrMetallicRoughness", dict, {})
-        red, green, blue, _ = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
-        factor = (red, green, blue)
+        red, green, blue, opacity = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
+        opacity = min(max(opacity, 0.0), 1.0)
+        cutoff = min(max(file.numbers({"c": [material.get("alphaCutoff", 0.5)]}, where, "c", [0.5])[0], 0.0), 1.0)
+        plain = Material(
+            name,
+            (red, green, blue),
+            alpha=ALPHAS[mode],
+            cutoff=min(cutoff / opacity, 1.0) if opacity > 0 else cutoff,
+            opacity=(round(opacity * 255) or 255) if mode == "BLEND" else 255,
+            two_sided=two_sided,
+        )
         if "baseColorTexture" not in surface:
-            return Material(name, factor)
+            return plain
         used = file.value(surface, where, "baseColorTexture", dict)
         texture = file.item("textures", used.get("index"), where)
         sampler = file.item("samplers", texture["sampler"], where) if "sampler" in texture else {}
-        wraps = (sampler.get("wrapS", REPEAT), sampler.get("wrapT", REPEAT))
+        wraps = [file.count(sampler, where, key, REPEAT) for key in ("wrapS", "wrapT")]
+        if not all(wrap in WRAPS for wrap in wraps):
+            raise file.error(f"{where}: its sampler wraps by {wraps[0]} and {wraps[1]}, of which one is unknown")
         file.item("images", texture.get("source"), f"the texture of {where}")
         extensions = file.value(used, where, "extensions", dict, {})
         moved = file.value(extensions, where, "KHR_texture_transform", dict, {})
         offset, scale = file.numbers(moved, where, "offset", [0.0] * 2), file.numbers(moved, where, "scale", [1.0] * 2)
-        return Material(
-            name,
-            factor,
-            texture["source"],
-            file.count(moved, where, "texCoord", file.count(used, where, "texCoord", 0)),
-            (offset[0], offset[1]),
-            file.numbers({"rotation": [moved.get("rotation", 0.0)]}, where, "rotation", [0.0])[0],
-            (scale[0], scale[1]),
-            wraps == (REPEAT, REPEAT),
+        return replace(
+            plain,
+            image=texture["source"],
+            uv_set=file.count(moved, where, "texCoord", file.count(used, where, "texCoord", 0)),
+            offset=(offset[0], offset[1]),
+            rotation=file.numbers({"rotation": [moved.get("rotation", 0.0)]}, where, "rotation", [0.0])[0],
+            scale=(scale[0], scale[1]),
+            wrap=(WRAPS[wraps[0]], WRAPS[wraps[1]]),
+            smooth=sampler.get("magFilter") == LINEAR,
         )
 
-    def picture(self, index: int, factor: tuple[float, float, float]) -> Picture:
+    def picture(self, index: int, material: Material) -> Picture:
         file = self.file
         where = f"images[{index}]"
         image = file.item("images", index, "a texture")
@@ -157,7 +185,15 @@ class _Reader:
             data = file.resource(file.value(image, where, "uri", str), where)
         else:
             data, _ = file.view(image.get("bufferView"), where)
-        return Picture(f"{file.name}: {where}", data, factor)
+        return Picture(
+            f"{file.name}: {where}",
+            data,
+            material.factor,
+            material.wrap,
+            material.smooth,
+            material.alpha,
+            material.cutoff,
+        )
 
     # --- primitives ---------------------------------------------------------------------------------------------------
 
@@ -254,12 +290,7 @@ class _Reader:
         uvs = uvs * material.scale
         if material.rotation != 0.0:
             uvs = uvs @ np.array([[cosine, -sine], [sine, cosine]])
-        uvs = uvs + material.offset
-        if not material.repeats and (uvs.min() < 0.0 or uvs.max() > 1.0):
-            self.note(
-                f"{material.name}: its texture repeats, as the renderer's do; the file wants it clamped or mirrored"
-            )
-        return np.asarray(uvs)
+        return np.asarray(uvs + material.offset)
 
 
 def _cofactors(m: Floats) -> Floats:
@@ -295,12 +326,11 @@ def _source(reader: _Reader, pieces: list[Piece]) -> Source:
     part_of = []
     for piece in pieces:
         material = piece.material
-        key = None if material.image is None else (material.image, material.factor)
-        if key not in number_of:
-            number_of[key] = len(parts)
-            picture = None if material.image is None else reader.picture(material.image, material.factor)
-            parts.append(Part(material.name, picture))
-        part_of.append(number_of[key])
+        if material.look not in number_of:
+            number_of[material.look] = len(parts)
+            picture = None if material.image is None else reader.picture(material.image, material)
+            parts.append(Part(material.name, picture, material.two_sided, material.opacity))
+        part_of.append(number_of[material.look])
     counts = [len(piece.positions) for piece in pieces]
     ends = np.cumsum(counts)
 

@@ -1,5 +1,7 @@
 """Meshes and textures as C headers: const arrays in the layout of `geometry/mesh.h`, as compact as a compiler allows.
 
+Members are named in the order of their declarations, which C++ asks for.
+
 The text depends on nothing but the data and the words given: no dates, no folders, so that a regenerated header can be
 compared byte for byte.
 """
@@ -13,10 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import Mesh, Texture
+from edgeline.convert.mesh import Mesh
+from edgeline.convert.texels import Format, Texture, Wrap
 from edgeline.errors import EdgelineError
 
 COLUMNS = 120
+PLAIN = 200, 200, 200
+"""The colour of what has none, in the simulator too."""
 
 RESERVED = re.compile(
     "auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|main|register"
@@ -26,13 +31,30 @@ RESERVED = re.compile(
 
 
 @dataclass(frozen=True)
+class Look:
+    """What an `el_material` says beside its texture. `opacity` of 255."""
+
+    two_sided: bool = False
+    opacity: int = 255
+
+
+@dataclass(frozen=True)
 class NamedMesh:
-    """One mesh of a header. `offset_q16` is where its origin lies in the world, in Q16.16 world units, if anywhere."""
+    """One mesh of a header. `offset_q16` is where its origin lies in the world, in Q16.16 world units, if anywhere.
+    With a `material` there is an el_material too."""
 
     name: str
     mesh: Mesh
     texture: Texture | None = None
     offset_q16: tuple[int, int, int] | None = None
+    material: Look | None = None
+
+    @property
+    def shading(self) -> str:
+        """The dearest that the mesh has what it takes for, as the simulator chooses it too."""
+        if self.texture is not None:
+            return "textured"
+        return "flat" if self.mesh.triangle_colours is not None and self.mesh.colours is None else "gouraud"
 
 
 def check_name(name: str) -> str:
@@ -48,6 +70,13 @@ def name_from(stem: str, kind: str = "mesh") -> str:
     if not name or not name[0].isalpha() or RESERVED.fullmatch(name):
         name = f"{kind}_{name}".rstrip("_")
     return name
+
+
+def is_name_of_part(name: str, mesh: str) -> bool:
+    """Whether a header of that mesh may give that name to one of its arrays, or its texture or material."""
+    parts = "positions|triangles|colours|triangle_colours|normals|uvs|clusters|offset_q16"
+    own = f"{parts}|(level[0-9]+_)?(texels|alpha|image|texture)|palette|material"
+    return re.fullmatch(f"{mesh}_({own})", name) is not None
 
 
 def wrap(items: Iterable[str]) -> list[str]:
@@ -72,18 +101,84 @@ def array_lines(c_type: str, name: str, array: npt.NDArray[np.generic]) -> list[
     return [f"static const {c_type} {name}[{rows}][{columns}] = {{", *wrap(rows_of(array)), "};"]
 
 
-def texture_lines(name: str, texture: Texture) -> list[str]:
-    values = (f"0x{texel:04x}" for texel in texture.texels.reshape(-1).tolist())
-    return [
-        f"static const uint16_t {name}_texels[{texture.texels.size}] = {{",
-        *wrap(values),
-        "};",
-        f"static const el_texture {name}_texture = {{",
-        f"    .texels = {name}_texels,",
-        f"    .width_log2 = {texture.width_log2},",
-        f"    .height_log2 = {texture.height_log2},",
-        "};",
+def values_lines(c_type: str, name: str, values: npt.NDArray[np.generic]) -> list[str]:
+    digits = 2 * values.itemsize
+    items = (f"0x{value:0{digits}x}" for value in values.tolist())
+    return [f"static const {c_type} {name}[{values.size}] = {{", *wrap(items), "};"]
+
+
+def image_lines(name: str, palette: str, level: Texture) -> list[str]:
+    """The el_image `name`_image of texels `name`_texels."""
+    height, width = level.texels.shape
+    lines = [] if level.alpha is None else values_lines("uint8_t", f"{name}_alpha", level.alpha.reshape(-1))
+    lines += [
+        f"static const el_image {name}_image = {{",
+        f"    .width = {width},",
+        f"    .height = {height},",
+        f"    .format = EL_IMAGE_{level.format.name},",
     ]
+    if level.key is not None:
+        lines += ["    .has_key = true,", f"    .key = {level.key},"]
+    lines += [f"    .pixels = {name}_texels,"]
+    if level.palette.size > 0:
+        lines += [f"    .palette = {palette},"]
+    if level.alpha is not None:
+        lines += [f"    .alpha = {name}_alpha,"]
+    return [*lines, "};"]
+
+
+def level_lines(name: str, palette: str, smaller: str | None, level: Texture) -> list[str]:
+    """The arrays and the el_texture `name`_texture of one level. Members that only some textures need are left out
+    else, as small code has none of them."""
+    texels = level.packed()
+    lines = values_lines("uint16_t" if texels.dtype == np.uint16 else "uint8_t", f"{name}_texels", texels)
+    if level.is_image:
+        lines += image_lines(name, palette, level)
+    lines += [f"static const el_texture {name}_texture = {{"]
+    if not level.is_image:
+        lines += [
+            f"    .texels = {name}_texels,",
+            f"    .width_log2 = {level.width_log2},",
+            f"    .height_log2 = {level.height_log2},",
+        ]
+    for axis, mode in zip("uv", level.wrap, strict=True):
+        if mode != Wrap.REPEAT:
+            lines += [f"    .wrap_{axis} = EL_WRAP_{mode.name},"]
+    if level.smooth:
+        lines += ["    .smooth = true,"]
+    if level.is_image:
+        lines += [f"    .image = &{name}_image,"]
+    if smaller is not None:
+        lines += [f"    .smaller = &{smaller}_texture,"]
+    return [*lines, "};"]
+
+
+def texture_lines(name: str, texture: Texture) -> list[str]:
+    """The smallest level first, as each names the next one."""
+    palette = f"{name}_palette"
+    lines = values_lines("uint16_t", palette, texture.palette) if texture.format != Format.RGB565 else []
+    smaller = None
+    for number, level in reversed([*enumerate(texture.levels())]):
+        own = f"{name}_level{number}" if number > 0 else name
+        lines += level_lines(own, palette, smaller, level)
+        smaller = own
+    return lines
+
+
+def material_lines(named: NamedMesh, look: Look) -> list[str]:
+    lines = [
+        f"static const el_material {named.name}_material = {{",
+        f"    .shading = EL_SHADE_{named.shading.upper()},",
+    ]
+    if look.two_sided:
+        lines += ["    .flags = EL_MATERIAL_TWO_SIDED,"]
+    if named.mesh.colours is None and named.mesh.triangle_colours is None:
+        lines += [f"    .colour = {{{', '.join(map(str, PLAIN))}}},"]
+    if look.opacity != 255:
+        lines += [f"    .alpha = {look.opacity},"]
+    if named.texture is not None:
+        lines += [f"    .texture = &{named.name}_texture,"]
+    return [*lines, "};"]
 
 
 def cluster_lines(name: str, clusters: npt.NDArray[np.void]) -> list[str]:
@@ -101,7 +196,7 @@ def cluster_lines(name: str, clusters: npt.NDArray[np.void]) -> list[str]:
 
 
 def mesh_lines(named: NamedMesh) -> list[str]:
-    """The arrays of a mesh, then the mesh, then its texture and offset."""
+    """The arrays of a mesh, then the mesh, then its texture, material and offset."""
     name, mesh = named.name, named.mesh
     arrays = (
         ("int16_t", "positions", mesh.positions),
@@ -131,6 +226,8 @@ def mesh_lines(named: NamedMesh) -> list[str]:
     lines += ["};"]
     if named.texture is not None:
         lines += texture_lines(name, named.texture)
+    if named.material is not None:
+        lines += material_lines(named, named.material)
     if named.offset_q16 is not None:
         lines += [f"static const int32_t {name}_offset_q16[3] = {{{', '.join(map(str, named.offset_q16))}}};"]
     return lines
@@ -145,7 +242,7 @@ def summary(named: NamedMesh) -> str:
     )
     if named.texture is not None:
         height, width = named.texture.texels.shape
-        text += f"; texture {width}x{height}, {named.texture.texels.nbytes:,} bytes"
+        text += f"; texture {width}x{height}, {named.texture.flash_bytes:,} bytes"
     return text + "."
 
 

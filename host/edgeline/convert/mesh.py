@@ -16,7 +16,6 @@ from edgeline.errors import EdgelineError
 
 MAX_VERTICES = 65535
 MAX_TRIANGLES = 61440
-MAX_TEXTURE_LOG2 = 10
 MIN_SCALE_LOG2 = -30
 MAX_SCALE_LOG2 = 8
 POSITION_LIMIT = 32767
@@ -39,28 +38,6 @@ CLUSTER = np.dtype(
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class Texture:
-    """A picture of `texels`, uint16 RGB565 of shape (height, width), both powers of two up to 1024; row 0 on top."""
-
-    texels: npt.NDArray[np.uint16]
-
-    def __post_init__(self) -> None:
-        if self.texels.dtype != np.uint16 or self.texels.ndim != 2:
-            raise EdgelineError("a texture has to be a two-dimensional array of uint16")
-        if any(side not in {1 << log2 for log2 in range(MAX_TEXTURE_LOG2 + 1)} for side in self.texels.shape):
-            height, width = self.texels.shape
-            raise EdgelineError(f"a texture of {width}x{height}: both sides have to be powers of two, 1024 at most")
-
-    @property
-    def width_log2(self) -> int:
-        return int(self.texels.shape[1]).bit_length() - 1
-
-    @property
-    def height_log2(self) -> int:
-        return int(self.texels.shape[0]).bit_length() - 1
 
 
 @dataclass(frozen=True)
@@ -96,9 +73,11 @@ class Mesh:
         check_triangle_count(m)
         check_vertex_count(n)
         if int(self.triangles.max()) >= n:
-            raise EdgelineError(f"mesh triangles: index {int(self.triangles.max())} with {n} vertices")
+            text = f"mesh triangles: index {int(self.triangles.max())} with {n} vertices; convert the model again"
+            raise EdgelineError(text)
         if not MIN_SCALE_LOG2 <= self.scale_log2 <= MAX_SCALE_LOG2:
-            raise EdgelineError(f"mesh scale 2^{self.scale_log2}: it is 2^{MIN_SCALE_LOG2} to 2^{MAX_SCALE_LOG2}")
+            limits = f"it is 2^{MIN_SCALE_LOG2} to 2^{MAX_SCALE_LOG2}; convert the model again"
+            raise EdgelineError(f"mesh scale 2^{self.scale_log2}: {limits}")
         if self.radius < 0:
             centre, radius = bounding_sphere(self.positions)
             object.__setattr__(self, "centre", centre)
@@ -126,13 +105,23 @@ class Mesh:
                 raise EdgelineError("mesh clusters: a vertex lies outside of its cluster's sphere; convert it again")
 
     @property
+    def parts_bytes(self) -> dict[str, int]:
+        """Of each array that there is."""
+        arrays = {
+            "positions": self.positions,
+            "triangles": self.triangles,
+            "colours": self.colours,
+            "triangle_colours": self.triangle_colours,
+            "normals": self.normals,
+            "uvs": self.uvs,
+            "clusters": self.clusters,
+        }
+        return {name: array.nbytes for name, array in arrays.items() if array is not None}
+
+    @property
     def flash_bytes(self) -> int:
         """Bytes of the arrays."""
-        arrays = (
-            *(self.positions, self.triangles, self.colours, self.triangle_colours, self.normals, self.uvs),
-            self.clusters,
-        )
-        return sum(array.nbytes for array in arrays if array is not None)
+        return sum(self.parts_bytes.values())
 
 
 @dataclass(frozen=True)
@@ -148,10 +137,12 @@ class Soup:
 
 @dataclass(frozen=True)
 class Quantised:
-    """A mesh, the largest position error in world units, and how many triangles had no area left."""
+    """A mesh, the largest position error in world units and their root mean square over coordinates, and how many
+    triangles had no area left."""
 
     mesh: Mesh
     position_error: float
+    position_rms: float
     dropped_triangles: int
 
 
@@ -240,7 +231,9 @@ def quantise(soup: Soup, scale_log2: int | None = None) -> Quantised:
         scale_log2 = scale_log2_for(float(np.abs(soup.positions).max(initial=0.0)))
     exact = np.ldexp(soup.positions, -scale_log2)
     positions = np.rint(exact).astype(np.int64)
-    error = math.ldexp(float(np.abs(positions - exact).max(initial=0.0)), scale_log2)
+    apart = positions - exact
+    error = math.ldexp(float(np.abs(apart).max(initial=0.0)), scale_log2)
+    rms = math.ldexp(math.sqrt(float((apart * apart).sum()) / max(1, apart.size)), scale_log2)
     keep = has_area(positions)
     check_triangle_count(int(keep.sum()))
     columns = [positions[keep]]
@@ -263,4 +256,4 @@ def quantise(soup: Soup, scale_log2: int | None = None) -> Quantised:
         colours=None if soup.colours is None else next(parts).astype(np.uint8),
         triangle_colours=None if soup.triangle_colours is None else soup.triangle_colours[keep],
     )
-    return Quantised(mesh, error, int((~keep).sum()))
+    return Quantised(mesh, error, rms, int((~keep).sum()))

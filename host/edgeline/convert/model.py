@@ -85,16 +85,20 @@ def image_parts(
     materials: dict[str, Material],
     picture_of: Callable[[str], Picture],
 ) -> tuple[tuple[Part, ...], Ints]:
-    """A part per image, and one for triangles without any, in the order of the file; and the part of each triangle."""
-    images = [materials.get(name, Material()).image for name in model.materials] + [None]  # index NONE is the last
-    number_of: dict[str | None, int] = {}
+    """A part per image, and one for triangles without any, as often as they differ in how they are drawn, in the order
+    of the file; and the part of each triangle."""
+    found = [materials.get(name, Material()) for name in model.materials] + [Material()]  # index NONE is the last
+    looks = [(one.image, one.opacity, one.image is not None and (one.clamps, one.has_alpha)) for one in found]
+    number_of: dict[object, int] = {}
     parts: list[Part] = []
     for i in dict.fromkeys(face_materials.tolist()):
-        if images[i] not in number_of:
-            number_of[images[i]] = len(parts)
+        if looks[i] not in number_of:
+            number_of[looks[i]] = len(parts)
             name = "" if i == NONE else model.materials[i]
-            parts.append(Part(name, None if images[i] is None else picture_of(name)))
-    part_of_material = np.array([number_of.get(image, 0) for image in images], dtype=np.int64)
+            picture = None if found[i].image is None else picture_of(name)
+            # What nobody could see is what exporters write that mean the opposite.
+            parts.append(Part(name, picture, opacity=round(found[i].opacity * 255) or 255))
+    part_of_material = np.array([number_of.get(look, 0) for look in looks], dtype=np.int64)
     return tuple(parts), part_of_material[face_materials]
 
 

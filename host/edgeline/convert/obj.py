@@ -1,7 +1,7 @@
 """Wavefront OBJ and MTL as text: what a file says, checked, with the line of every face for later messages.
 
-Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd and map_Kd in materials. Groups, objects,
-smoothing groups, lines, points and free-form surfaces are passed over. No files are opened here.
+Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd, d, Tr, map_Kd and map_d in materials.
+Groups, objects, smoothing groups, lines, points and free-form surfaces are passed over. No files are opened here.
 """
 
 from __future__ import annotations
@@ -52,11 +52,20 @@ class ObjModel:
 
 @dataclass
 class Material:
-    """`colour` is Kd, 0 to 1; `image` the file name of map_Kd; `line` where that stands."""
+    """`colour` is Kd, `opacity` d, 0 to 1; `image` the file name of map_Kd; `line` where that stands; `clamps`: its
+    option -clamp on; `clear_image` the file name of map_d."""
 
     colour: tuple[float, float, float] | None = None
+    opacity: float = 1.0
     image: str | None = None
     line: int = 0
+    clamps: bool = False
+    clear_image: str | None = None
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the image's own alpha is how much of it shows."""
+        return self.image is not None and self.clear_image == self.image
 
 
 def statements(name: str, data: bytes) -> Iterator[tuple[int, list[str], str]]:
@@ -207,6 +216,12 @@ def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
             values = numbers(name, line, words, 1, 3)
             red, green, blue = (min(max(v, 0.0), 1.0) for v in (values * 3)[:3])
             current.colour = red, green, blue
+        elif words[0] in ("d", "Tr") and words[1:2] != ["-halo"]:
+            (value,) = numbers(name, line, words, 1, 1)
+            current.opacity = min(max(value if words[0] == "d" else 1.0 - value, 0.0), 1.0)
         elif words[0] == "map_Kd" and rest:
             current.image, current.line = map_file(words, rest), line
+            current.clamps = "-clamp on" in " ".join(words).lower()
+        elif words[0] == "map_d" and rest:
+            current.clear_image = map_file(words, rest)
     return materials

@@ -7,7 +7,8 @@ import math
 import shlex
 from pathlib import Path
 
-from edgeline.convert.mesh import MAX_TEXTURE_LOG2
+from edgeline.convert.palette import DITHERS
+from edgeline.convert.texels import MAX_TEXTURE_LOG2, Format
 from edgeline.errors import EdgelineError
 
 DEFAULT_CREASE = 60.0
@@ -20,6 +21,13 @@ MODEL_OPTIONS = (
         "texture",
         "no_texture",
         "texture_size",
+        "texture_format",
+        "dither",
+        "mipmaps",
+        "atlas",
+        "alpha",
+        "wrap",
+        "filter",
         "up",
         "scale",
         "centre",
@@ -45,6 +53,7 @@ def add_model_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--texture-size", type=int, metavar="TEXELS", help="longest side of a texture, a power of two (default: 128)"
     )
+    _add_texture_options(parser)
     parser.add_argument(
         "--vertex-colours", action="store_true", help="colours of materials at the vertices, for smooth shading"
     )
@@ -68,12 +77,45 @@ def add_model_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_texture_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--texture-format",
+        choices=[one.option for one in Format],
+        help="what texels are: RGB565, 256 or 16 colours, or a bit each in one colour (default: rgb565)",
+    )
+    parser.add_argument("--dither", choices=DITHERS, help="how colours that there are not are mixed (default: none)")
+    parser.add_argument(
+        "--mipmaps", action="store_true", help="smaller textures for what is far away; a third more flash"
+    )
+    parser.add_argument(
+        "--atlas", action="store_true", help="one texture for parts that differ only in their images, so one mesh"
+    )
+    parser.add_argument(
+        "--alpha",
+        choices=("file", "none", "test", "blend"),
+        help="what alpha is for: nothing, texels that are drawn or not, or mixing (default: as the model says)",
+    )
+    parser.add_argument(
+        "--wrap", choices=("file", "repeat", "clamp", "mirror"), help="beyond an image (default: as the model says)"
+    )
+    parser.add_argument(
+        "--filter",
+        choices=("file", "nearest", "bilinear"),
+        help="between texels (default: nearest, which is drawn several times as fast as bilinear)",
+    )
+
+
+def is_given(value: object) -> bool:
+    """Whether that is an option's value; a number of 0 is one."""
+    return value is not None and value is not False
+
+
 def check_model_options(args: argparse.Namespace) -> None:
     """Raises EdgelineError for options that make no sense, alone or for this kind of file."""
     suffix = args.model.suffix.lower()
     if suffix not in (*READ, ".elm"):
         raise EdgelineError(f"{args.model}: models are read from {', '.join(READ)} or .elm; export it as one of these")
-    given = [f"--{name.replace('_', '-')}" for name in MODEL_OPTIONS if getattr(args, name) not in (None, False)]
+    given = [f"--{name.replace('_', '-')}" for name in MODEL_OPTIONS if is_given(getattr(args, name))]
     if suffix == ".elm" and given:
         raise EdgelineError(f"{given[0]} is for models in other formats; an .elm is passed on as it is")
     if args.crease is not None and not 0 <= args.crease <= 180:
@@ -103,6 +145,6 @@ def command_words(args: argparse.Namespace) -> str:
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
-        elif value not in (None, False):
+        elif is_given(value):
             words += [option, _word(value)]
     return shlex.join(words)

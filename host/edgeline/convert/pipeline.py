@@ -1,23 +1,41 @@
 """The way from a model's file to meshes: read, place, simplify, shade, quantise, gather in clusters.
 
-A model whose triangles have several textures, or some and some none, becomes several meshes, as the firmware draws a
-mesh with one texture. They share unit and origin, so that they fit together without cracks.
+A model whose triangles have several materials becomes several meshes, as the firmware draws a mesh with one. They share
+unit and origin, so that they fit together without cracks; an atlas makes one of those that differ only in their images.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from edgeline.convert import elm
+from edgeline.convert.atlas import with_atlases
 from edgeline.convert.clusters import with_clusters
 from edgeline.convert.gltf import parse_gltf
-from edgeline.convert.header import NamedMesh, name_from
+from edgeline.convert.header import NamedMesh, is_name_of_part, name_from
 from edgeline.convert.locality import per_triangle
-from edgeline.convert.mesh import MAX_TRIANGLES, check_triangle_count, has_area, quantise, scale_log2_for
+from edgeline.convert.materials import (
+    as_asked,
+    in_drawing_order,
+    load_pictures,
+    look_of,
+    notes_of,
+    style_of,
+    with_texture,
+)
+from edgeline.convert.mesh import (
+    MAX_TRIANGLES,
+    Quantised,
+    check_triangle_count,
+    has_area,
+    quantise,
+    scale_log2_for,
+)
 from edgeline.convert.model import source_from
 from edgeline.convert.obj import Material, ObjModel, parse_mtl, parse_obj
 from edgeline.convert.options import DEFAULT_CREASE, DEFAULT_TEXTURE_SIZE
@@ -26,6 +44,8 @@ from edgeline.convert.progress import Steps
 from edgeline.convert.simplify import Simplified, simplified
 from edgeline.convert.source import Picture, Source, placed, soup_of, with_normals
 from edgeline.convert.stl import parse_stl
+from edgeline.convert.texels import Wrap
+from edgeline.convert.texture import Alpha, ColourError, Pixels, Style
 from edgeline.errors import EdgelineError
 
 
@@ -35,11 +55,14 @@ class Result:
 
     meshes: list[NamedMesh]
     position_error: float = 0.0
+    position_rms: float = 0.0
     dropped_triangles: int = 0
     notes: tuple[str, ...] = ()
     simplified: Simplified | None = None
     transforms_before: float | None = None
     """Per triangle, with the model's own order; None where that stays."""
+    colour_errors: tuple[ColourError | None, ...] = ()
+    """Of each mesh's texture; empty where they are not known."""
 
 
 def read_bytes(path: Path) -> bytes:
@@ -60,6 +83,9 @@ def read_materials(path: Path, model: ObjModel, notes: list[str]) -> tuple[dict[
             continue
         found = parse_mtl(library.name, read_bytes(library))
         materials |= found
+        for material, made in found.items():
+            if made.clear_image is not None and not made.has_alpha:
+                notes.append(f"{material}: map_d is left out; what is clear has to be the alpha of map_Kd's own image")
         library_of |= dict.fromkeys(found, library.name)
     return materials, library_of
 
@@ -70,9 +96,11 @@ def read_obj(path: Path) -> Source:
     materials, library_of = read_materials(path, model, notes)
 
     def picture_of(material: str) -> Picture:
-        image = materials[material].image or ""
-        where = f"{library_of[material]}:{materials[material].line}: map_Kd"
-        return Picture(where, path.parent / image.replace("\\", "/"))
+        found = materials[material]
+        image = path.parent / (found.image or "").replace("\\", "/")
+        wrap = Wrap.CLAMP if found.clamps else Wrap.REPEAT
+        alpha = Alpha.BLEND if found.has_alpha else Alpha.NONE
+        return Picture(f"{library_of[material]}:{found.line}: map_Kd", image, wrap=(wrap, wrap), alpha=alpha)
 
     return source_from(model, materials, picture_of, tuple(notes))
 
@@ -113,53 +141,83 @@ def part_names(source: Source, name: str) -> list[str]:
     for i, part in enumerate(source.parts):
         candidate = f"{name}_{name_from(part.name) if part.name else 'plain'}"
         names.append(f"{candidate}_{i}" if candidate in names else candidate)
-    return names
+    # A header has arrays and structures of each mesh, too, whose names begin with its own.
+    return [f"{one}_{i}" if any(is_name_of_part(one, other) for other in names) else one for i, one in enumerate(names)]
+
+
+def reduced(source: Source, args: argparse.Namespace, steps: Steps) -> tuple[Source, Simplified | None]:
+    """`source` with as few triangles as were asked for. Raises EdgelineError for more than meshes hold."""
+    if args.triangles is not None or args.tolerance is not None:
+        fewer = simplified(source, args.triangles, args.tolerance, steps)
+        return fewer.source, fewer
+    if len(source.positions) > 2 * len(source.parts) * MAX_TRIANGLES:
+        check_triangle_count(len(source.positions))  # before any work is done on them
+    return source, None
+
+
+def meshes_of(
+    source: Source, pixels: list[Pixels | None], style: Style, names: list[str], steps: Steps, *, clustered: bool
+) -> Result:
+    """A mesh of each part that has an area, named so; those that are blended last. Raises EdgelineError."""
+    scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
+    named: list[NamedMesh] = []
+    found: list[Quantised] = []
+    errors: list[ColourError | None] = []
+    dropped = 0
+    with steps.bar("meshes", len(source.parts)) as done:
+        for i, part_name in in_drawing_order(source, names):
+            rows = source.part_of == i
+            done(1)
+            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
+                dropped += int(rows.sum())
+                continue
+            part = source.parts[i]
+            chosen, texture, colours = with_texture(source.chosen(rows), part, pixels[i], style)
+            found.append(quantise(soup_of(chosen, texture), scale_log2))
+            errors.append(colours)
+            mesh = with_clusters(found[-1].mesh, per_triangle) if clustered else found[-1].mesh
+            named.append(NamedMesh(part_name, mesh, texture, material=look_of(part)))
+    counts = [len(one.mesh.triangles) for one in found]
+    total = sum(counts)
+    check_triangle_count(min(total, 1))
+    before = sum(per_triangle(one.mesh) * count for one, count in zip(found, counts, strict=True)) / total
+    squares = sum(one.position_rms**2 * count for one, count in zip(found, counts, strict=True)) / total
+    return Result(
+        named,
+        max(one.position_error for one in found),
+        math.sqrt(squares),
+        dropped + sum(one.dropped_triangles for one in found),
+        transforms_before=before if any(one.mesh.clusters is not None for one in named) else None,
+        colour_errors=tuple(errors),
+    )
 
 
 def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
     """The meshes of the model that `args` name, the first of them called `name`. Raises EdgelineError."""
     if args.model.suffix.lower() == ".elm":
         return convert_elm(args.model, name)
-    source = coloured(read_source(args.model), args)
-    size = args.texture_size or DEFAULT_TEXTURE_SIZE
-    textures = [None if part.picture is None else part.picture.load(size) for part in source.parts]
+    source = as_asked(coloured(read_source(args.model), args), args)
+    style = style_of(args)
+    pixels = load_pictures(source, style, args.texture_size or DEFAULT_TEXTURE_SIZE, steps)
     source = placed(source, args.up or "y", args.scale or 1.0, args.centre)
-    fewer = None
-    if args.triangles is not None or args.tolerance is not None:
-        fewer = simplified(source, args.triangles, args.tolerance, steps)
-        source = fewer.source
-    elif len(source.positions) > 2 * len(source.parts) * MAX_TRIANGLES:
-        check_triangle_count(len(source.positions))  # before any work is done on them
+    source, fewer = reduced(source, args, steps)
+    if args.atlas:
+        source, pixels = with_atlases(source, pixels, style.levels)
     if args.no_normals:
         source = replace(source, normals=None)
     else:
         source = with_normals(source, DEFAULT_CREASE if args.crease is None else args.crease)
     try:
-        scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
-        named, error, dropped, before = [], 0.0, 0, 0.0
-        for i, (part_name, texture) in enumerate(zip(part_names(source, name), textures, strict=True)):
-            rows = source.part_of == i
-            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
-                dropped += int(rows.sum())
-                continue
-            part = quantise(soup_of(source.chosen(rows), texture), scale_log2)
-            mesh = part.mesh if args.no_clusters else with_clusters(part.mesh, per_triangle)
-            named.append(NamedMesh(part_name, mesh, texture))
-            before += per_triangle(part.mesh) * len(mesh.triangles)
-            error, dropped = max(error, part.position_error), dropped + part.dropped_triangles
-        if not named:
-            check_triangle_count(0)
+        result = meshes_of(source, pixels, style, part_names(source, name), steps, clustered=not args.no_clusters)
     except EdgelineError as problem:
         text = str(problem)
         raise problem if text.startswith(source.name) else EdgelineError(f"{source.name}: {text}") from problem
-    total = sum(len(one.mesh.triangles) for one in named)
-    reordered = any(one.mesh.clusters is not None for one in named)
-    return Result(named, error, dropped, source.notes, fewer, before / total if reordered else None)
+    return replace(result, notes=(*source.notes, *notes_of(source, pixels, args)), simplified=fewer)
 
 
 def convert_elm(path: Path, name: str) -> Result:
     try:
-        mesh, texture = elm.decode(read_bytes(path))
+        mesh, texture, material = elm.decode_all(read_bytes(path))
     except EdgelineError as error:
         raise EdgelineError(f"{path}: {error}") from error
-    return Result([NamedMesh(name, mesh, texture)])
+    return Result([NamedMesh(name, mesh, texture, material=material)])

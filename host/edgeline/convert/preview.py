@@ -83,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
         picture = Path(folder) / "preview.png"
         for i, one in enumerate(result.meshes):
             path = Path(folder) / f"{i}.elm"
-            path.write_bytes(elm.encode(one.mesh, one.texture))
+            path.write_bytes(elm.encode(one.mesh, one.texture, one.material))
             words += ["--mesh", str(path)]
         for option in PASSED_ON:
             value = getattr(args, option)

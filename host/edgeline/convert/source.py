@@ -13,30 +13,37 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from edgeline.convert.mesh import TEXEL_ONE, Floats, Ints, Soup, Texture
+from edgeline.convert.mesh import TEXEL_ONE, Floats, Ints, Soup
 from edgeline.convert.normals import smooth_normals, unit
-from edgeline.convert.texture import load_texture
+from edgeline.convert.texels import Texture, Wrap
+from edgeline.convert.texture import Alpha, Pixels, Style, load_pixels
 from edgeline.errors import EdgelineError
 
 UV_LIMIT = 32767
+UV_ERROR = 1 / 8
+"""Texels, el_config.uv_error_log2's default."""
 MOST_TRIANGLES = 4_000_000
 """Of a file. What is above the firmware's own limit has to be simplified."""
 
 
 @dataclass(frozen=True)
 class Picture:
-    """An image that a model names, not opened yet. `where` is the place that names it, for messages; empty when
-    that was the command line."""
+    """An image that a model names, not opened yet, and how the model wants it drawn. `where` is the place that names
+    it, for messages; empty when that was the command line."""
 
     where: str
     image: Path | bytes
     factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
     """By which its colours are to be multiplied, in linear light."""
+    wrap: tuple[Wrap, Wrap] = (Wrap.REPEAT, Wrap.REPEAT)
+    smooth: bool = False
+    alpha: Alpha = Alpha.NONE
+    cutoff: float = 0.5
 
-    def load(self, limit: int) -> Texture:
+    def load(self, limit: int, with_alpha: bool) -> Pixels:
         """Raises EdgelineError."""
         try:
-            return load_texture(self.image, limit, self.factor)
+            return load_pixels(self.image, limit, self.factor, with_alpha)
         except EdgelineError as error:
             if not self.where:
                 raise
@@ -45,10 +52,13 @@ class Picture:
 
 @dataclass(frozen=True)
 class Part:
-    """Triangles that share a texture, or have none; they become a mesh of their own where there are several."""
+    """Triangles that share a material; they become a mesh of their own where there are several. `opacity` is of 255."""
 
     name: str
     picture: Picture | None = None
+    two_sided: bool = False
+    opacity: int = 255
+    is_atlas: bool = False
 
 
 @dataclass(frozen=True)
@@ -81,8 +91,8 @@ class Source:
         )
 
     def in_one(self, picture: Picture | None) -> Source:
-        """All triangles in one part."""
-        part = Part(self.parts[0].name, picture)
+        """All triangles in one part, which is opaque; two-sided where one of them is."""
+        part = Part(self.parts[0].name, picture, any(part.two_sided for part in self.parts))
         return replace(self, parts=(part,), part_of=np.zeros(len(self.positions), dtype=np.int64))
 
 
@@ -130,7 +140,7 @@ def with_normals(source: Source, crease_degrees: float) -> Source:
 def texel_coordinates(source: Source, texture: Texture) -> Floats:
     """Texture coordinates (m, 3, 2) in texels. Raises EdgelineError where one is missing or out of range.
 
-    As a texture repeats, all coordinates are moved by whole repetitions together when they would not fit otherwise.
+    Where a texture repeats, all coordinates are moved by whole repetitions together when they would not fit otherwise.
     """
     shape = (*source.positions.shape[:2], 2)
     uvs = np.full(shape, np.nan) if source.uvs is None else source.uvs
@@ -139,12 +149,14 @@ def texel_coordinates(source: Source, texture: Texture) -> Floats:
         text = "a corner without a texture coordinate (v/vt); unwrap the model, or give --no-texture"
         raise EdgelineError(f"{source.where(int(np.argmax(missing)))}: {text}")
     height, width = texture.texels.shape
-    period = np.array([width, height], dtype=np.float64)
-    texels = uvs * period
+    sides = np.array([width, height], dtype=np.float64)
+    texels = uvs * sides
     limit = UV_LIMIT / TEXEL_ONE
     if np.abs(texels).max() > limit:
         middle = (texels.min(axis=(0, 1)) + texels.max(axis=(0, 1))) / 2
-        texels = texels - np.rint(middle / period) * period
+        periods = sides * [{Wrap.REPEAT: 1, Wrap.MIRROR: 2, Wrap.CLAMP: np.inf}[wrap] for wrap in texture.wrap]
+        moved = np.rint(middle / periods)
+        texels = texels - np.where(moved == 0, 0.0, moved * periods)
     outside = np.any(np.abs(texels) > limit, axis=2)
     if outside.any():
         row, corner = np.unravel_index(int(np.argmax(outside)), outside.shape)
@@ -155,6 +167,26 @@ def texel_coordinates(source: Source, texture: Texture) -> Floats:
         )
         raise EdgelineError(f"{source.where(int(row))}: {text}")
     return np.asarray(texels)
+
+
+def fitted_wrap(source: Source, style: Style, sides: tuple[int, int]) -> tuple[Source, tuple[Wrap, Wrap]]:
+    """`source`, and how its picture of `sides` (width, height) goes on beyond its borders.
+
+    A texture that repeats is drawn fastest. So where all coordinates of an axis lie within the image, and no texels are
+    mixed, it repeats whatever the model says, and the coordinates keep so far from the borders that this never shows:
+    half a texel with smaller levels, else what the renderer may be wrong by.
+    """
+    wrap = list(style.wrap)
+    if source.uvs is None or style.smooth:
+        return source, style.wrap
+    uvs = source.uvs.copy()
+    for axis, side in enumerate(sides):
+        inset = (0.5 if style.levels > 1 else UV_ERROR) / side
+        found = uvs[..., axis]
+        if wrap[axis] != Wrap.REPEAT and np.all((found >= -1e-6) & (found <= 1 + 1e-6)):
+            wrap[axis] = Wrap.REPEAT
+            uvs[..., axis] = np.clip(found, inset, 1.0 - inset)
+    return replace(source, uvs=uvs), (wrap[0], wrap[1])
 
 
 def soup_of(source: Source, texture: Texture | None) -> Soup:

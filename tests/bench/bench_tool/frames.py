@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from .machines import CORES, BenchError, Line, Machines, output_of
+from .machines import CORES, MAIN_CORES, BenchError, Line, Machines, output_of
 from .models import SCENES as MODEL_SCENES
 from .stages import REST, STAGES, Program, profile
 
@@ -161,6 +161,21 @@ def measure(machines: Machines, verdicts: Verdicts, cores: Sequence[str] = tuple
     return frames
 
 
+def measure_alike(machines: Machines, program: str, verdicts: Verdicts) -> list[tuple[Line, dict[str, int]]]:
+    """A program's measurements on the main cores, each with its instructions by core. What is printed, pictures' CRCs
+    among it, must be the same on each of them and on this computer."""
+    native = [line for line in machines.native(program) if line.words[0] != "empty"]
+    counts: list[dict[str, int]] = [{} for _ in native]
+    for core in MAIN_CORES:
+        found = machines.target(core, program)
+        if len(found) != len(native):
+            raise BenchError(f"{program}: {core} measured {len(found)} times, this computer {len(native)}")
+        for here, there, count in zip(native, found, counts, strict=True):
+            verdicts.check(there.line == here, f"{program}: {core} says {there.line}, this computer {here}")
+            count[core] = there.instructions
+    return list(zip(native, counts, strict=True))
+
+
 def _frame(line: Line, native: Line, bits: int, counts: dict[str, int], splits: dict[str, dict[str, int]]) -> Frame:
     scene, arena_bytes, uv_error_log2, number = line.words
     ram = {part: int(line.values[part]) for part in FIXED_PARTS}
@@ -192,14 +207,18 @@ def _compare_with_each_other(frames: Iterable[Frame], verdicts: Verdicts) -> Non
         verdicts.check(crcs[one] == crcs[other], f"{one} is {crcs[one]}, {other} is {crcs[other]}")
 
 
+def _drawn(frame: Frame) -> str:
+    return frame.scene.removesuffix("-again")
+
+
 def compare_with_simulator(machines: Machines, frames: Iterable[Frame], verdicts: Verdicts) -> None:
     """`edgeline-sim render --crc` has the default texture error, so only frames with that are compared, of the scenes
-    that it knows."""
+    that it knows; what is drawn again is the same frame."""
     simulator = machines.simulator()
     known = [row.split()[0] for row in output_of([simulator, "list"]).splitlines()]
-    compared = [frame for frame in frames if frame.uv_error_log2 == 3 and frame.scene in known]
-    for scene in dict.fromkeys(frame.scene for frame in compared):
-        of_scene = [frame for frame in compared if frame.scene == scene]
+    compared = [frame for frame in frames if frame.uv_error_log2 == 3 and _drawn(frame) in known]
+    for scene in dict.fromkeys(map(_drawn, compared)):
+        of_scene = [frame for frame in compared if _drawn(frame) == scene]
         last = max(frame.number for frame in of_scene)
         crcs = output_of([simulator, "render", "--scene", scene, "--frames", str(last + 1), "--crc"]).split()
         for frame in of_scene:

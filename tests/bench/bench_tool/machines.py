@@ -160,8 +160,11 @@ class Machines:
 
     def target(self, core: str, program: str, bits: int = 4, profile: Path | None = None) -> list[Measured]:
         """The program's measurements on a core, the cost of the markers taken off; `profile` gets the plugin's."""
+        return self.run(core, self.build(core, program, bits), profile)
+
+    def run(self, core: str, elf: Path, profile: Path | None = None) -> list[Measured]:
+        """The same of a program that is built already."""
         machine = CORES[core]
-        elf = self.build(core, program, bits)
         self.build("native", "count")
         plugin = self._tree("native", 4) / "libcount.so"
         log, text = elf.with_suffix(".count"), elf.with_suffix(".text")

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from .machines import ROOT, BenchError, Core, Machines, Measured, output_of
@@ -29,8 +29,6 @@ SHARED = None
 # File, functions, stage: the first row that fits decides. Files are below the repository's root.
 RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/base/fill.h", "*", "sink"),
-    ("firmware/src/raster/fill.h", "el_row*", "rows"),
-    ("firmware/src/raster/fill.h", "el_goes_on", "rows"),
     ("firmware/src/raster/fill.h", "el_slopes*", "rows"),
     ("firmware/src/raster/fill.h", "el_values_at", "rows"),
     ("firmware/src/*.h", "*", SHARED),
@@ -53,28 +51,43 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/list.c", "*", "bin"),
     ("firmware/src/raster/hidden.c", "*", "bin"),
     ("firmware/src/raster/gather.c", "*", "set-up"),
+    ("firmware/src/raster/small_gouraud.c", "walk_*", "rows"),
+    ("firmware/src/raster/small_gouraud.c", "move_right", "rows"),
+    ("firmware/src/raster/small_gouraud.c", "down_and_back", "rows"),
+    ("firmware/src/raster/small_gouraud.c", "*", "pixels"),
+    ("firmware/src/raster/small_sampled.c", "el_*", "set-up"),
     ("firmware/src/raster/small_sampled_setup.c", "*", "set-up"),
     ("firmware/src/raster/small_sampled.c", "*row*", "rows"),
     ("firmware/src/raster/small_sampled.c", "draw_part*", "rows"),
     ("firmware/src/raster/small_sampled.c", "move_down*", "rows"),
     ("firmware/src/raster/small_sampled.c", "*", "pixels"),
-    ("firmware/src/raster/small_*.c", "draw_rows", "pixels"),
-    ("firmware/src/raster/small_*.c", "*", "set-up"),
+    ("firmware/src/raster/small_triangle.c", "draw_rows", "pixels"),
+    ("firmware/src/raster/small_triangle.c", "*", "set-up"),
     ("firmware/src/raster/tiny_triangle.c", "draw_rows", "pixels"),
     ("firmware/src/raster/tiny_triangle.c", "*", "set-up"),
     ("firmware/src/raster/triangle.c", "*", "set-up"),
+    ("firmware/src/raster/field.c", "*", "set-up"),
+    ("firmware/src/raster/wires.c", "*", "pixels"),
     ("firmware/src/raster/plane.c", "*", "set-up"),
     ("firmware/src/raster/rows.c", "*", "rows"),
     ("firmware/src/raster/spans.c", "*", "rows"),
     ("firmware/src/raster/sampled.c", "make_*", "set-up"),
+    ("firmware/src/raster/sampled.c", "parts_times", "set-up"),
+    ("firmware/src/raster/sampled.c", "draw_any", "set-up"),
+    ("firmware/src/raster/sampled.c", "is_small", "set-up"),
     ("firmware/src/raster/sampled.c", "el_sampled_draw", "set-up"),
     ("firmware/src/raster/sampled.c", "*row*", "rows"),
     ("firmware/src/raster/sampled.c", "*", "pixels"),
     ("firmware/src/raster/samples.c", "*", "pixels"),
+    ("firmware/src/raster/fill_mixed.c", "el_mixed_brush_begin", "set-up"),
+    ("firmware/src/raster/fill_mixed.c", "el_*", "rows"),
     ("firmware/src/raster/stripes.c", "*", "pixels"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
+    ("firmware/src/raster/texel_line.c", "*", "pixels"),
+    ("firmware/src/raster/sampler.c", "*make*", "set-up"),
     ("firmware/src/raster/sampler.c", "*", "pixels"),
-    ("firmware/src/raster/texture.c", "*", "set-up"),
+    ("firmware/src/raster/texture.c", "el_mip_level", "set-up"),
+    ("firmware/src/raster/texture.c", "*", "bin"),
     ("firmware/src/raster/texture_walk.c", "*", "pixels"),
     ("firmware/src/raster/depth_row.c", "*", "pixels"),
     ("firmware/src/frame/bands.c", "open_band", "sink"),
@@ -84,6 +97,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/frame/bands.c", "*", "bin"),
     ("firmware/src/frame/painter*.c", "*", "bin"),
     ("firmware/src/frame/workers.c", "*", "bin"),
+    ("firmware/src/frame/debug_view.c", "*", "bin"),
     ("firmware/src/frame/renderer.c", "*", "sink"),
     ("firmware/src/frame/quiet.c", "*", "sink"),
     ("firmware/src/geometry/aim.c", "*", REST),
@@ -98,6 +112,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/scene/*", "*", REST),
     ("firmware/src/canvas/*", "*", REST),
     ("firmware/apps/*", "*", REST),
+    ("sim/*", "*", REST),
     ("tests/bench/*", "*", REST),
 )
 
@@ -111,6 +126,7 @@ class Place:
     function: str
     file: str
 
+    @cache  # noqa: B019 (few places, asked for by hundred thousands of instructions)
     def rule(self) -> tuple[str, str, str | None] | None:
         """The row of RULES; None for what is not the project's."""
         path = Path(self.file)
@@ -247,8 +263,13 @@ class _Callers:
 
 def profile(machines: Machines, core: str, program: str, bits: int = 4) -> tuple[list[Measured], list[dict[int, int]]]:
     """A program's measurements on a core, and each one's executed instructions by address."""
-    path = machines.build(core, program, bits).with_suffix(".profile")
-    measured = machines.target(core, program, bits, path)
+    return profile_of(machines, core, machines.build(core, program, bits))
+
+
+def profile_of(machines: Machines, core: str, elf: Path) -> tuple[list[Measured], list[dict[int, int]]]:
+    """The same of a program that is built already."""
+    path = elf.with_suffix(".profile")
+    measured = machines.run(core, elf, path)
     profiles = read_profile(path.read_text(encoding="ascii"))
     if len(profiles) != len(measured):
         raise BenchError(f"{core}: {len(measured)} measurements, {len(profiles)} profiles")
