@@ -45,9 +45,9 @@ static bool take_samples(el_common_options *options, const char *text)
 static bool take_stripes(el_common_options *options, const char *text)
 {
     static const char *const names[EL_STRIPES_COUNT] = {"none", "rgb", "bgr"};
-    for (uint8_t i = 0; i < EL_STRIPES_COUNT; i++) {
+    for (unsigned i = 0; i < EL_STRIPES_COUNT; i++) {
         if (strcmp(text, names[i]) == 0) {
-            options->machine.stripes = i;
+            options->machine.stripes = (uint8_t)i;
             return true;
         }
     }

@@ -54,19 +54,17 @@ static uint32_t filtered(const uint16_t *line, int32_t middle, unsigned down, ui
     return (2U * sum + 9U) / 18U << down;
 }
 
-static void check_frame(const seeded *s, bool blue_first)
+static void check_frame(const seeded *s, int32_t height, bool blue_first)
 {
-    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+    for (int32_t i = 0; i < WIDTH * height; i++) {
         const int32_t x = EL_STRIPES_PER_PIXEL * (i % WIDTH);
         const uint16_t *const line = wide.pixels + i / WIDTH * COLUMNS;
         const uint16_t *const depth = wide.depth + EL_STRIPES_PER_PIXEL * i;
         const uint32_t wanted = filtered(line, blue_first ? x + 2 : x, 11, 31) | filtered(line, x + 1, 5, 63) |
                                 filtered(line, blue_first ? x : x + 2, 0, 31);
-        uint16_t nearest = depth[0] < depth[1] ? depth[0] : depth[1];
-        nearest = depth[2] < nearest ? depth[2] : nearest;
-        if (found.pixels[i] != wanted || found.depth[i] != nearest) {
+        if (found.pixels[i] != wanted || found.depth[i] != depth[1]) {
             fail_at(s, "pixel %d is %04x at %u, not %04x at %u", (int)i, found.pixels[i], found.depth[i],
-                    (unsigned)wanted, nearest);
+                    (unsigned)wanted, depth[1]);
         }
     }
 }
@@ -90,7 +88,7 @@ static void test_a_frame_is_the_wide_one_filtered(void)
         config.band_lines = (uint16_t)any_between(&s, 1, LINES);
         play(&config, &scene, &found);
         TEST_ASSERT_EQUAL_UINT16(WIDTH, found.width);
-        check_frame(&s, config.stripes == EL_STRIPES_BGR);
+        check_frame(&s, HEIGHT, config.stripes == EL_STRIPES_BGR);
     }
 }
 
@@ -101,15 +99,16 @@ static void test_stripes_are_a_third_as_wide_as_pixels(void)
     any_scene scene;
     el_sink sink;
     fill_scene(&s, &scene);
-    scene.camera.aspect_q16 = (4U << 16) / 3U;
-    _Static_assert(WIDTH * 3 == HEIGHT * 4, "the same up to rounding");
+    scene.camera.aspect_q16 = 2U << 16; /* which is exact */
     el_config config = config_for(&wide, &sink, COLUMNS);
+    config.height = WIDTH / 2;
     play(&config, &scene, &wide);
     scene.camera.aspect_q16 = 0;
     config = config_for(&found, &sink, WIDTH);
+    config.height = WIDTH / 2;
     config.stripes = EL_STRIPES_RGB;
     play(&config, &scene, &found);
-    check_frame(&s, false);
+    check_frame(&s, WIDTH / 2, false);
 }
 
 static void draw_columns(void *context, el_band *band)

@@ -78,9 +78,11 @@ static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *la
 static void draw_under_stripes(el_painter *painter, const el_config *config)
 {
     el_band *const buffer = &painter->bands[painter->current];
-    buffer->width = (uint16_t)(config->width / EL_STRIPES_PER_PIXEL);
-    draw_layer(painter, config->under);
-    el_stripes_cut(buffer->pixels, (uint32_t)buffer->width * buffer->lines);
+    if (config->under != NULL) {
+        buffer->width = (uint16_t)(config->width / EL_STRIPES_PER_PIXEL);
+        draw_layer(painter, config->under);
+        el_stripes_cut(buffer->pixels, (uint32_t)buffer->width * buffer->lines);
+    }
     buffer->width = config->width;
 }
 

@@ -28,7 +28,7 @@ enum { EL_STRIPES_PER_PIXEL = 3 };
 void el_stripes_cut(uint16_t *pixels, uint32_t count);
 
 /* Makes one pixel of three in `lines` lines, in place, which then have `width` pixels each, one behind the other: the means,
- * each rounded to nearest, and of the depths the nearest. `blue_first`: the stripes are blue, green, red. */
+ * each rounded to nearest, and the depths at their centres, which are those of the middle stripes. `blue_first`: the stripes are blue, green, red. */
 void el_stripes_filter(uint16_t *pixels, uint16_t *depth, uint32_t width, uint32_t lines, bool blue_first);
 
 #endif

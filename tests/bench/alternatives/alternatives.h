@@ -65,6 +65,7 @@ extern const bench_case gouraud_cases[];
 extern const bench_case dither_cases[];
 extern const bench_case texture_cases[];
 extern const bench_case reciprocal_cases[];
+extern const bench_case smoothing_cases[];
 
 /* Corners from the top to the bottom; where they are level, from left to right. */
 static inline void bench_sort(int32_t x[3], int32_t y[3])

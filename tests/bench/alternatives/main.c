@@ -115,8 +115,8 @@ static void run_case(const bench_case *c)
 
 int bench_main(void)
 {
-    static const bench_case *const groups[] = {edge_cases,   subpixel_cases, depth_cases,     gouraud_cases,
-                                               dither_cases, texture_cases,  reciprocal_cases};
+    static const bench_case *const groups[] = {edge_cases,   subpixel_cases, depth_cases,      gouraud_cases,
+                                               dither_cases, texture_cases,  reciprocal_cases, smoothing_cases};
     bench_next();
     bench_start();
     bench_stop();

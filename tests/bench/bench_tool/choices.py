@@ -89,6 +89,19 @@ GROUPS = {
             "table_newton2": "table, 2 Newton steps",
         },
     ),
+    "smoothing": Group(
+        "smooth edges, S1",
+        "rms_255ths",
+        "error against 256 samples, rms, 1/255",
+        "samples_1",
+        {
+            "samples_1": "1 sample per pixel",
+            "samples_4": "4 samples",
+            "samples_8": "8 samples",
+            "stripes": "RGB stripes",
+            "stripes_4": "RGB stripes, 4 samples",
+        },
+    ),
 }
 
 # The renderer's own loop, measured beside the group's copy of it: another cost, for it does more, the same pixels.

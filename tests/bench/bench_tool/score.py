@@ -128,6 +128,8 @@ class Reference:
             return self._texture(group, name)
         if group == "reciprocal":
             return self._reciprocal(name)
+        if group == "smoothing":
+            return self._smoothing(name)
         raise BenchError(f"no reference for the group '{group}'")
 
     def units(self, group: str) -> tuple[str, int]:
@@ -136,11 +138,21 @@ class Reference:
             return "triangle", len(self.triangles)
         if group == "reciprocal":
             return "reciprocal", (self.folder / "input.reciprocals").stat().st_size // 4
+        if group == "smoothing":
+            return "frame of 320x240", 1
         if group == "dither":
             return "pixel", len(self.samples.of_triangles(*LARGE_TRIANGLES).place)
         if group in TEXTURE_RANGES:
             return "pixel", len(self.samples.of_triangles(*TEXTURE_RANGES[group]).place)
         return "pixel", len(self.samples.place)
+
+    def _smoothing(self, name: str) -> Errors:
+        """Of the worst channel of each pixel, in 8-bit levels."""
+        values = np.fromfile(self.folder / f"smoothing.{name}", "<i4").reshape(-1, 4).astype(np.float64)
+        pixel = values[:, 0]
+        found = np.stack([pixel // 2048, pixel // 32 % 64, pixel % 32], axis=1)
+        error = (np.abs(found - values[:, 1:] / 256) * (255 / np.array([31, 63, 31]))).max(axis=1)
+        return {"rms_255ths": float(np.sqrt((error**2).mean())), "max_255ths": float(error.max())}
 
     def _coverage(self, group: str, name: str, samples: Samples) -> Errors:
         wanted = np.zeros(PICTURES * HEIGHT * WIDTH, bool)
