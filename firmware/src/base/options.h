@@ -113,19 +113,17 @@
 #define EL_WITH_MIPMAPS (!EL_SMALL_CODE && EL_WITH_TEXTURE)
 #endif
 
-/* Several samples per pixel, el_config.samples. Without, which is what small code begins with: el_init refuses them with
- * EL_ERROR_SIZE. */
+/* Several samples per pixel. Without, which is what small code begins with, there is no el_config.samples. */
 #ifndef EL_WITH_SAMPLES
 #define EL_WITH_SAMPLES (!EL_SMALL_CODE)
 #endif
 
-/* EL_MATERIAL_WIRES, el_mesh.edges. Without, which is what small code begins with: EL_ERROR_MATERIAL, and there is no such
- * member. */
+/* EL_MATERIAL_WIRES, el_mesh.edges. Without, and small code begins without, there is neither. */
 #ifndef EL_WITH_WIRES
 #define EL_WITH_WIRES (!EL_SMALL_CODE)
 #endif
 
-/* el_config.interlaced. Without, and small code has none: el_init refuses it with EL_ERROR_SIZE. */
+/* el_config.interlaced. Without, and small code has none, there is no such member. */
 #ifndef EL_WITH_INTERLACED
 #define EL_WITH_INTERLACED (!EL_SMALL_CODE)
 #endif

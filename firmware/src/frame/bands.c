@@ -76,11 +76,13 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
     el_band *const buffer = &painter->bands[painter->current];
     uint16_t *const depth = painter->depth[painter->current];
     const int32_t y = band * config->band_lines;
-    const int32_t y_end = el_min_i32(y + config->band_lines, renderer->lines);
-    const uint8_t field = renderer->list.field;
+    const int32_t y_end = el_min_i32(y + config->band_lines, el_renderer_lines(renderer));
+    const uint8_t field = el_list_field(&renderer->list);
     if (!painter->band_is_open) {
         buffer->y = (uint16_t)el_screen_row(field, y);
-        buffer->gap = EL_WITH_INTERLACED && field != EL_FIELD_NONE;
+#if EL_WITH_INTERLACED
+        buffer->gap = field != EL_FIELD_NONE;
+#endif
         buffer->lines = (uint16_t)(y_end - y);
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);

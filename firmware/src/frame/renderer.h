@@ -123,12 +123,16 @@ typedef struct el_config {
      * changed between frames to what needs no more memory than there was for el_init. With several samples there is no
      * depth pre-pass and no EL_SHADE_OVERDRAW, hidden triangles are found pixel by pixel, and each triangle is set up in each
      * band; a debug view shows the frame without. */
+#if EL_WITH_SAMPLES
     uint8_t samples;
+#endif
     /* Each frame draws, and hands to the sinks, every other line alone, the even and the odd ones by turns: half of the
      * wire, and of the pixels, for a picture that moves twice as smoothly over a slow wire. Two frames of what stands still
      * make the whole picture, to the last bit. For sinks that take gaps (el_sink.takes_gaps); with one sample, one worker and
      * without `reuse`, `depth_prepass` and `view`. */
+#if EL_WITH_INTERLACED
     bool interlaced;
+#endif
     bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
                               and much lies behind other things; may be changed between frames too */
     void *memory;        /* the arena, the renderer's until the last frame is done; any alignment */
@@ -168,7 +172,9 @@ typedef struct el_renderer {
 #if EL_WITH_DEBUG_VIEWS
     uint8_t pass_draws; /* draws before this pass, modulo 256 */
 #endif
+#if EL_WITH_INTERLACED
     uint16_t lines; /* of this frame: the screen's, or a field's */
+#endif
     uint16_t band_count;
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;

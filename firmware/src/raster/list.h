@@ -157,11 +157,13 @@ typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
-    bool is_shared;     /* triangles have shares */
-    bool has_gaps;      /* el_list_keep_rows closes them */
-    uint8_t reach;      /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
-    uint8_t field;      /* el_field: rows are its lines */
+    bool is_thin;   /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    bool is_shared; /* triangles have shares */
+    bool has_gaps;  /* el_list_keep_rows closes them */
+    uint8_t reach;  /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+#if EL_WITH_INTERLACED
+    uint8_t field; /* el_field: rows are its lines */
+#endif
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */
@@ -169,6 +171,17 @@ typedef struct el_list {
     uint32_t used;  /* bytes */
     uint16_t *bins; /* last record of each band; 0: none */
 } el_list;
+
+/* The frame's el_field. */
+static inline uint8_t el_list_field(const el_list *list)
+{
+#if EL_WITH_INTERLACED
+    return list->field;
+#else
+    (void)list;
+    return 0; /* EL_FIELD_NONE */
+#endif
+}
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
 {
