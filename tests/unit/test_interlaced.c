@@ -208,9 +208,11 @@ static void test_what_does_not_go_with_it_is_refused(void)
     bad = good;
     bad.reuse = EL_REUSE_BACKGROUND;
     expect_init(&bad, EL_ERROR_SIZE);
+#if EL_WITH_SAMPLES
     bad = good;
     bad.samples = 4;
     expect_init(&bad, EL_ERROR_SIZE);
+#endif
     bad = good;
     bad.depth_prepass = true;
     expect_init(&bad, EL_ERROR_SIZE);
