@@ -457,9 +457,9 @@ static void test_wires_are_flat_and_opaque_and_of_one_sample(void)
     if (EL_WITH_OVERDRAW) {
         expect_refused((el_material){.shading = EL_SHADE_OVERDRAW}, (el_config){0});
     }
-    if (EL_WITH_SAMPLES) {
-        expect_refused(green_wires, (el_config){.samples = 4});
-    }
+#if EL_WITH_SAMPLES
+    expect_refused(green_wires, (el_config){.samples = 4});
+#endif
 #if EL_WITH_MIXED
     expect_refused((el_material){.alpha = 100}, (el_config){0});
 #endif
