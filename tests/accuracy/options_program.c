@@ -132,8 +132,10 @@ int main(void)
     draw("orthographic", EL_ORTHOGRAPHIC, &material);
     material.flags = EL_MATERIAL_NO_DEPTH;
     draw("no-depth", EL_PERSPECTIVE, &material);
+#if EL_WITH_WIRES
     material.flags = EL_MATERIAL_WIRES;
     draw("wires", EL_PERSPECTIVE, &material);
+#endif
     material = plain;
     material.light = &light;
     draw("lit", EL_PERSPECTIVE, &material);

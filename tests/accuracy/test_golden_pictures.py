@@ -17,7 +17,10 @@ from golden import GOLDEN, UPDATE, expect_golden, rgb_of, stored_crcs
 from sim_commands import Simulator
 
 CRCS = GOLDEN / "scenes.crc"
-SCENES = ("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4", "materials", "wires")
+SCENES = (
+    *("demo", "teapot", "room", "solid", "field", "S1", "S2", "S2-no-depth", "S3", "S4"),
+    *("materials", "lamps", "wires"),
+)
 FRAMES = 120
 EVERY = 10
 

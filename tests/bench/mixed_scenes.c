@@ -64,7 +64,7 @@ static el_status s2_flat_fog(uint32_t frame, el_renderer *renderer)
     return draw_in_fog(frame, renderer, &s2, &flat);
 }
 
-/* A palette of 256 colours, mirrored, of which one is not drawn. */
+/* A palette of 256 colours, of which one is not drawn. */
 static el_status s2_palette(uint32_t frame, el_renderer *renderer)
 {
     static uint8_t indices[SIDE * SIDE];
@@ -76,13 +76,22 @@ static el_status s2_palette(uint32_t frame, el_renderer *renderer)
                                    .key = 0,
                                    .pixels = indices,
                                    .palette = palette};
-    static const el_texture texture = {.image = &image, .wrap_u = EL_WRAP_MIRROR, .wrap_v = EL_WRAP_MIRROR};
+    static const el_texture texture = {.image = &image};
     static const el_material material = {.shading = EL_SHADE_TEXTURED, .texture = &texture};
     (void)frame;
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
         indices[i] = (uint8_t)(s2_texels[i] >> 8);
         palette[indices[i]] = s2_texels[i];
     }
+    return draw(renderer, &s2, &material);
+}
+
+static el_status s2_mirror(uint32_t frame, el_renderer *renderer)
+{
+    static const el_texture texture = {
+        .texels = s2_texels, .width_log2 = 6, .height_log2 = 6, .wrap_u = EL_WRAP_MIRROR, .wrap_v = EL_WRAP_MIRROR};
+    static const el_material material = {.shading = EL_SHADE_TEXTURED, .texture = &texture};
+    (void)frame;
     return draw(renderer, &s2, &material);
 }
 
@@ -130,7 +139,8 @@ const el_scene mixed_scenes[] = {
     {"S2-flat", "S2 in one colour", GREY, place_camera, s2_flat, NULL},
     {"S2-flat-blend", "the same, half transparent", GREY, place_camera, s2_flat_blend, NULL},
     {"S2-flat-fog", "the same in fog", GREY, place_camera, s2_flat_fog, NULL},
-    {"S2-palette", "S2, 256 colours, mirrored, one is not drawn", GREY, place_camera, s2_palette, NULL},
+    {"S2-palette", "S2, 256 colours, one is not drawn", GREY, place_camera, s2_palette, NULL},
+    {"S2-mirror", "S2, mirrored", GREY, place_camera, s2_mirror, NULL},
     {"S2-blend", "S2, half transparent", GREY, place_camera, s2_blend, NULL},
     {"S2-alpha", "S2, an alpha for each texel", GREY, place_camera, s2_alpha, NULL},
     {"S2-bilinear", "S2, bilinear", GREY, place_camera, s2_bilinear, NULL},

@@ -152,4 +152,82 @@ fault own_paths "a folder of one machine" "a path of one machine" a.txt <<<"see 
 fault own_paths "an address of a registry" "an address of a package registry" a.txt \
     <<<"https:""//registry.example.org/x.tgz"
 
+# --- the looks of surfaces ----------------------------------------------------------------------------------------------
+
+# Faults in what lights, fog and mixes, one place changed in a copy of a source: its unit test must fail. What is inline is
+# changed in its header, and compiled into the sources that are named.
+unity=${EDGELINE_UNITY_DIR:-$build/unity/src}
+[ -f "$unity/unity.c" ] || unity=$build/sim/_deps/unity-src/src
+looks=$work/looks
+compile=(cc -std=c11 -O1 -DUNITY_SUPPORT_64 -I "$looks/src" -I "$root/tests/unit" -I "$unity")
+
+# look TEST NAME FILE OLD NEW [SOURCE...]: OLD stands in one line of FILE.
+look() {
+    local test=$1 name=$2 file=$3 sources=("${@:6}") status=0
+    if [ ! -f "$looks/sound.a" ]; then
+        echo "skipped $test: $name"
+        return
+    fi
+    [ "${file##*.}" = h ] || sources+=("$file")
+    python3 - "$looks/src/$file" "$4" "$5" <<'PYTHON' || { echo "missed $test: $name (there is no one such place)"; missed=1; return; }
+import sys
+from pathlib import Path
+
+path, old, new = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
+text = path.read_text(encoding="utf-8")
+if text.count(old) != 1:
+    sys.exit(1)
+path.write_text(text.replace(old, new), encoding="utf-8")
+PYTHON
+    if "${compile[@]}" "$root/tests/unit/$test.c" "${sources[@]/#/$looks/src/}" "$unity/unity.c" "$looks/sound.a" -lm \
+        -o "$looks/test" >"$looks.log" 2>&1; then
+        timeout 60 "$looks/test" >>"$looks.log" 2>&1 || status=$?
+    fi
+    if [ "$status" -ne 0 ] && grep -q ":FAIL" "$looks.log"; then
+        echo "found $test: $name"
+    else
+        echo "missed $test: $name (status $status)"
+        missed=1
+    fi
+    cp "$root/firmware/src/$file" "$looks/src/$file"
+}
+
+mkdir -p "$looks/objects"
+cp -r "$root/firmware/src" "$looks/src"
+if [ -f "$unity/unity.c" ]; then
+    (cd "$looks/objects" && printf '%s\0' "$looks"/src/{base,geometry,raster}/*.c |
+        xargs -0 -P 2 -n 8 cc -std=c11 -O1 -I "$looks/src" -c && ar rc "$looks/sound.a" ./*.o)
+fi
+lights=geometry/lights.c fog=raster/fog.c mixed=raster/fill_mixed_line.c texels=raster/texel_line.c
+look test_lights "spots have a sharp border" $lights "(3U << 16) - 2U * t" "(1U << 16)"
+look test_lights "a lamp behind the surface lights it" $lights "cosine <= 0 || arrives" "arrives"
+look test_lights "light does not fade with distance" $lights "sum == 0 ?" "sum != 1 ?"
+look test_lights "highlights as wide as they come" $lights "i < shininess_log2" "i + 1U < shininess_log2"
+look test_lights "both sides are the front" $lights "if (l->two_sided &&" "if (false && l->two_sided &&"
+look test_lights "nothing glows by itself" $lights "(uint32_t)l->emissive[i] << 8" "(uint32_t)l->emissive[i] << 0"
+look test_fog "fog by the nearest entry" raster/fog.h "(fall * in_step >> step_log2)" "(fall * 0U * in_step)" $fog
+look test_fog "e^-x of too few terms" $fog "TERMS = 8" "TERMS = 2"
+look test_fog "fog begins at the eye" $fog "begin_q16 > view->near_q16 ? begin_q16" "begin_q16 > view->far_q16 ? begin_q16"
+look test_sampler "mirrors repeat" raster/sampler.c ": axis->period - 1U - in_period" ": in_period - axis->size"
+look test_sampler "coordinates below 0 are off by one" raster/sampler.c "(FARTHEST + period - 1U) / period * period" "FARTHEST"
+look test_sampler "rows mirror by one too few" $texels "axis->period - 1U - place" "axis->period - 2U - place"
+look test_sampler "the right half byte is the left one" $texels "((~i & 1U) << 2)" "((i & 1U) << 2)"
+look test_sampler "the lower two texels are the upper" $texels "(y + width) & from.v_mask" "y & from.v_mask"
+look test_sampler "alpha of a palette is forgotten" $texels "if (line->has_alpha_apart)" "if (false)"
+look test_mixed "what is blended hides" $mixed "b->writes_depth && b->way <= EL_MIXED_BLENDED" "b->way <= EL_MIXED_BLENDED"
+look test_mixed "half a texel is none" $mixed "is_tested ? 128U : 1U" "is_tested ? 257U : 1U"
+look test_mixed "an odd pixel is blended with another" $mixed "colour[count - 1U], alpha" "colour[0], alpha"
+look test_mixed "no fog on what is far" $mixed "if (alpha != 0)" "if (alpha < 256)"
+look test_mixed "pairs are rounded down" base/rgb565.h \
+    "((over & 0x001F001FU) - under_b) * alpha + 0x00800080U" "((over & 0x001F001FU) - under_b) * alpha" $mixed
+look test_depth_row "asking writes" raster/depth_row.c "            depth++;
+            z += step;
+        }
+    }
+    const uint32_t passed" "            *depth++ = (uint16_t)(z >> 32);
+            z += step;
+        }
+    }
+    const uint32_t passed"
+
 exit "$missed"

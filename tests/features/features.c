@@ -22,6 +22,7 @@ const feature *const features[] = {
     &feature_wraps,
     &feature_mipmaps,
     &feature_alpha,
+    &feature_wires,
 #endif
     NULL,
 };

@@ -1,9 +1,10 @@
 /* Features on this computer, in any way, as checksums and as files.
  *
- *     features [--band N] [--samples 0|4|8] [--threads N] [--more BYTES] [--prepass] [--raw FOLDER]
+ *     features [--band N] [--samples 0|4|8] [--threads N] [--more BYTES] [--prepass] [--interlaced]
+ *              [--raw FOLDER]
  *
- * One line per feature, with --prepass for those that take it: its name, the CRC-32 of its pixels and of its depth, and the
- * passes that it took. --more: bytes of the arena beyond the least; --raw: writes FOLDER/NAME.raw, little-endian RGB565.
+ * One line per feature that the library has so: its name, the CRC-32 of its pixels and of its depth, and the passes that it
+ * took. --more: bytes of the arena beyond the least; --raw: writes FOLDER/NAME.raw, little-endian RGB565.
  * Status 2 for a bad command line, 1 where drawing fails. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,8 +31,8 @@ static bool parse(int argc, char **argv, feature_way *way, unsigned *threads, co
 {
     for (int i = 1; i < argc; i++) {
         const char *const name = argv[i];
-        if (strcmp(name, "--prepass") == 0) {
-            way->depth_prepass = true;
+        if (strcmp(name, "--prepass") == 0 || strcmp(name, "--interlaced") == 0) {
+            *(strcmp(name, "--prepass") == 0 ? &way->depth_prepass : &way->interlaced) = true;
             continue;
         }
         if (i + 1 == argc) {
@@ -85,7 +86,7 @@ int main(int argc, char **argv)
     void *const memory = malloc(feature_bytes(&way));
     bool is_good = threads != NULL && memory != NULL;
     for (unsigned i = 0; features[i] != NULL && is_good; i++) {
-        is_good = (way.depth_prepass && features[i]->blends_depth) || show(features[i], &way, memory, raw);
+        is_good = !feature_takes(features[i], &way) || show(features[i], &way, memory, raw);
     }
     free(memory);
     el_threads_close(threads);

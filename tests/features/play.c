@@ -18,10 +18,12 @@ static void begin(void *context, uint16_t width, uint16_t height)
 static void rows(void *context, el_band *band, unsigned slot)
 {
     const shown *const to = context;
-    const size_t at = (size_t)band->y * FEATURE_WIDTH;
-    const size_t bytes = (size_t)band->lines * FEATURE_WIDTH * sizeof to->pixels[0];
-    memcpy(to->pixels + at, band->pixels, bytes);
-    memcpy(to->depth + at, band->depth, bytes);
+    const size_t bytes = FEATURE_WIDTH * sizeof to->pixels[0];
+    for (size_t i = 0; i < band->lines; i++) {
+        const size_t at = (band->y + i * (1U + band->gap)) * FEATURE_WIDTH;
+        memcpy(to->pixels + at, band->pixels + i * FEATURE_WIDTH, bytes);
+        memcpy(to->depth + at, band->depth + i * FEATURE_WIDTH, bytes);
+    }
     el_band_release(band, slot);
 }
 
@@ -29,6 +31,11 @@ static void end(void *context, const el_stats *stats)
 {
     (void)context;
     (void)stats;
+}
+
+bool feature_takes(const feature *of, const feature_way *way)
+{
+    return !(of->blends_depth && way->depth_prepass) && !(of->has_wires && way->samples > 1);
 }
 
 size_t feature_bytes(const feature_way *way)
@@ -44,13 +51,14 @@ el_status feature_play(const feature *of, const feature_way *way, void *memory, 
                        uint32_t *passes)
 {
     shown to = {pixels, depth};
-    const el_sink sink = {.context = &to, .begin = begin, .rows = rows, .end = end};
+    const el_sink sink = {.context = &to, .begin = begin, .rows = rows, .end = end, .takes_gaps = true};
     el_renderer renderer;
     el_status status = el_init(&renderer, &(el_config){.width = FEATURE_WIDTH,
                                                        .height = FEATURE_HEIGHT,
                                                        .band_lines = way->band_lines,
                                                        .background = of->scene.background,
                                                        .samples = way->samples,
+                                                       .interlaced = way->interlaced,
                                                        .depth_prepass = way->depth_prepass,
                                                        .memory = memory,
                                                        .memory_bytes = feature_bytes(way),
@@ -58,7 +66,7 @@ el_status feature_play(const feature *of, const feature_way *way, void *memory, 
                                                        .under = of->under.draw != NULL ? &of->under : NULL,
                                                        .over = of->over.draw != NULL ? &of->over : NULL,
                                                        .workers = way->workers});
-    if (status == EL_OK) {
+    for (unsigned i = 0; i < (way->interlaced ? 2 : 1) && status == EL_OK; i++) {
         status = el_scene_play(&of->scene, 0, &renderer);
         *passes = el_frame_stats(&renderer)->passes;
     }

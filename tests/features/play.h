@@ -8,12 +8,16 @@ typedef struct feature_way {
     uint16_t band_lines;
     uint8_t samples;           /* per pixel; this one shows */
     bool depth_prepass;        /* not with samples, and not with blended depth */
+    bool interlaced;           /* two frames, of every other line each; with one sample, one worker and no pre-pass */
     const el_workers *workers; /* NULL: none */
     uint32_t more_bytes;       /* than the least arena */
 } feature_way;
 
 /* Enough for all features in one pass, with bands of 8 lines, 8 samples and no workers. */
 enum { FEATURE_MORE_BYTES = 200 * 1024 };
+
+/* Whether the library has it so; else it is refused. */
+bool feature_takes(const feature *of, const feature_way *way);
 
 /* The arena that it takes. */
 size_t feature_bytes(const feature_way *way);

@@ -187,6 +187,51 @@ const feature feature_fog = {
     .scene = {.name = "fog", .background = GREY, .place_camera = place_camera, .draw = draw_fog}};
 #endif
 
+/* --- wires ------------------------------------------------------------------------------------------------------------------ */
+
+#if FEATURES_MIXED
+/* All edges over nothing; those that are not hidden by a surface, by one that does not show, by a half transparent one; and
+ * those that the mesh names: without diagonals. */
+static el_status draw_wires(uint32_t frame, el_renderer *renderer)
+{
+    static uint8_t edges[ROUND_TRIANGLES];
+    static el_mesh squares;
+    static const el_material surfaces[5] = {
+        {.shading = EL_SHADE_FLAT}, /* not drawn */
+        {.shading = EL_SHADE_GOURAUD},
+        {.flags = EL_MATERIAL_BLEND_DEPTH, .alpha = 1},
+        {.shading = EL_SHADE_GOURAUD, .alpha = 128},
+        {.flags = EL_MATERIAL_BLEND_DEPTH, .alpha = 1},
+    };
+    static const el_material lines[2] = {
+        {.flags = EL_MATERIAL_WIRES, .colour = {255, 255, 255}},
+        {.flags = EL_MATERIAL_WIRES | EL_MATERIAL_TWO_SIDED, .colour = {255, 220, 60}},
+    };
+    (void)frame;
+    make_things();
+    squares = ball;
+    squares.edges = edges;
+    for (unsigned i = 0; i < ROUND_TRIANGLES; i++) {
+        edges[i] = i % 2 == 0 ? 3 : 6; /* corners are a, b, c and a, c, d: the diagonal is between a and c */
+    }
+    el_status status = EL_OK;
+    for (int32_t i = 0; i < 5; i++) {
+        const el_mesh *const mesh = i == 4 ? &squares : &ball;
+        const el_pose pose = turned(at(20 * i - 40, i % 2 == 0 ? 17 : -17, 0, 14), EL_DEGREES(25, 1), 0);
+        if (i > 0) {
+            status = worse(status, el_draw(renderer, mesh, &pose, &surfaces[i]));
+        }
+        status = worse(status, el_draw(renderer, mesh, &pose, &lines[i == 0 || i == 3]));
+    }
+    return status;
+}
+
+const feature feature_wires = {
+    .scene = {.name = "wires", .background = NIGHT, .place_camera = place_camera, .draw = draw_wires},
+    .blends_depth = true,
+    .has_wires = true};
+#endif
+
 /* --- clipping, orthographic --------------------------------------------------------------------------------------------------- */
 
 /* In a ball, with tubes through the near plane and one far beyond the view on all sides. */

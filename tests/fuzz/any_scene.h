@@ -82,6 +82,9 @@ static inline void take_mesh(input *in, item *t)
         take_bytes(in, t->mesh.centre, sizeof t->mesh.centre);
         t->mesh.radius = take_u16(in);
     }
+#if EL_WITH_WIRES
+    t->mesh.edges = (content & 64) != 0 ? t->triangle_colours[0] : NULL;
+#endif
     if ((content & 32) == 0) { /* inside the range, more often than not */
         t->mesh.scale_log2 = (int8_t)(-30 + (uint8_t)t->mesh.scale_log2 % 39);
     }

@@ -1,14 +1,15 @@
 /* All of the library in one show: any scene, whose items are lit by lamps, hang on each other, move by keys, face the camera
  * and are drawn as instances of two levels; any calls of canvas/ under and over it; and a camera that somebody turns from
- * frame to frame. Each frame is the same picture whatever bands, arena and cores there are, with a depth pre-pass, and where
- * the frame before is used again; each call's answer is the same, and what is picked is what is seen.
+ * frame to frame. Each frame is the same picture whatever bands, arena and cores there are, with a depth pre-pass, where the
+ * frame before is used again, and, of every other line, interlaced; each call's answer is the same, and what is picked is
+ * what is seen.
  *
  * An input begins as fuzz_renderer's does: the two share what finds their way into the renderer. */
 #include "any_call.h"
 #include "any_scene.h"
 #include "threads.h"
 
-enum { MAX_FRAMES = 3, LAYER_CALLS = 3, KEYS = 3, LAMPS = 3, MAX_CORES = 3, LEVELS = 2 };
+enum { MAX_FRAMES = 3, LAYER_CALLS = 3, KEYS = 3, LAMPS = 3, MAX_CORES = 3, LEVELS = 2, WAYS = 3 };
 
 /* Bits of part.kind. */
 enum {
@@ -58,6 +59,7 @@ typedef struct manner {
     unsigned misalignment;
     unsigned cores;
     bool depth_prepass;
+    bool interlaced; /* each frame has every other line alone */
     uint8_t reuse;
 } manner;
 
@@ -124,7 +126,7 @@ static void take_show(input *in, show *s)
     for (unsigned i = 0; i < s->scene.count; i++) {
         part *const p = &s->parts[i];
         p->kind = take_u8(in);
-        p->least_px = take_u8(in);
+        p->least_px = (uint16_t)(take_u8(in) * 257);
         if ((p->kind & MOVES) != 0) {
             take_motion(in, p);
         }
@@ -276,20 +278,29 @@ static bool is_as_it_was(void *context, uint16_t y, uint16_t lines)
 typedef struct keeper {
     picture picture;
     bool has_frame;
+    bool is_fresh[PICTURE_SIDE]; /* of each line, whether this frame has it */
 } keeper;
 
 static void keep_begin(void *context, uint16_t width, uint16_t height)
 {
-    const keeper *const k = context;
+    keeper *const k = context;
     FUZZ_EXPECT(width == k->picture.width && height == k->picture.height);
+    memset(k->is_fresh, 0, sizeof k->is_fresh);
 }
 
 static void keep_rows(void *context, el_band *band, unsigned slot)
 {
     keeper *const k = context;
-    k->picture.next_line = band->y; /* any */
-    picture_rows(&k->picture, band, slot);
-    k->picture.next_line = 0;
+    const size_t bytes = band->width * sizeof band->pixels[0];
+    FUZZ_EXPECT(band->width == k->picture.width && band->lines > 0);
+    for (unsigned i = 0; i < band->lines; i++) {
+        const unsigned y = band->y + i * (1U + band->gap);
+        FUZZ_EXPECT(y < k->picture.height && !k->is_fresh[y]);
+        k->is_fresh[y] = true;
+        memcpy(k->picture.colour + y * band->width, band->pixels + i * band->width, bytes);
+        memcpy(k->picture.depth + y * band->width, band->depth + i * band->width, bytes);
+    }
+    el_band_release(band, slot);
 }
 
 static bool keep_unchanged(void *context, uint16_t y, uint16_t lines)
@@ -313,6 +324,7 @@ typedef struct outcome {
     int begin[MAX_FRAMES];
     int draws[MAX_FRAMES][MAX_DRAWS];
     picture pictures[MAX_FRAMES];
+    bool is_fresh[MAX_FRAMES][PICTURE_SIDE];
 } outcome;
 
 static const el_workers *cores(unsigned count)
@@ -348,8 +360,12 @@ static void play(moment *m, const manner *how, outcome *o)
     memset(&k, 0, sizeof k);
     k.picture.width = s->width;
     k.picture.height = s->height;
-    el_sink sink = {
-        .context = &k, .begin = keep_begin, .rows = keep_rows, .unchanged = keep_unchanged, .end = keep_end};
+    el_sink sink = {.context = &k,
+                    .begin = keep_begin,
+                    .rows = keep_rows,
+                    .unchanged = keep_unchanged,
+                    .end = keep_end,
+                    .takes_gaps = true};
     painted painted_under = {&m->show->under, m};
     painted painted_over = {&m->show->over, m};
     const el_layer under = {.context = &painted_under, .draw = paint, .unchanged = is_as_it_was};
@@ -366,6 +382,7 @@ static void play(moment *m, const manner *how, outcome *o)
         .background = s->background,
         .uv_error_log2 = s->uv_error_log2,
         .reuse = how->reuse,
+        .interlaced = how->interlaced,
         .samples = s->samples,
         .depth_prepass = how->depth_prepass,
         .memory = memory + how->misalignment,
@@ -387,6 +404,7 @@ static void play(moment *m, const manner *how, outcome *o)
         if (o->begin[m->frame] == EL_OK) {
             draw_frame(&renderer, m, o);
             o->pictures[m->frame] = k.picture;
+            memcpy(o->is_fresh[m->frame], k.is_fresh, sizeof k.is_fresh);
         }
     }
     free(memory);
@@ -394,11 +412,35 @@ static void play(moment *m, const manner *how, outcome *o)
 
 /* --- What must hold ------------------------------------------------------------------------------------------------------- */
 
-/* Neither what is seen through nor what counts pixels: the pixel's depth is that of what is picked. */
+/* All calls have the same answers; of each frame the picture is the same, of an interlaced one every other line. */
+static void expect_same(const show *s, const outcome *whole, const outcome *other, bool interlaced)
+{
+    FUZZ_EXPECT(whole->init == other->init);
+    FUZZ_EXPECT(memcmp(whole->begin, other->begin, sizeof whole->begin) == 0);
+    FUZZ_EXPECT(memcmp(whole->draws, other->draws, sizeof whole->draws) == 0);
+    for (unsigned frame = 0; frame < s->frames; frame++) {
+        if (!interlaced) {
+            expect_same_pictures(&whole->pictures[frame], &other->pictures[frame]);
+            continue;
+        }
+        const bool *const is_fresh = other->is_fresh[frame];
+        for (unsigned y = 0; y < s->scene.height && whole->init == EL_OK && whole->begin[frame] == EL_OK; y++) {
+            const size_t at = (size_t)y * s->scene.width;
+            const size_t bytes = s->scene.width * sizeof whole->pictures[0].colour[0];
+            FUZZ_EXPECT(y == 0 || is_fresh[y] != is_fresh[y - 1]);
+            FUZZ_EXPECT(!is_fresh[y] ||
+                        (memcmp(whole->pictures[frame].colour + at, other->pictures[frame].colour + at, bytes) == 0 &&
+                         memcmp(whole->pictures[frame].depth + at, other->pictures[frame].depth + at, bytes) == 0));
+        }
+    }
+}
+
+/* Neither what is seen through nor what counts pixels, nor wires, whose triangles are picked: the pixel's depth is that of
+ * what is picked. */
 static bool is_plain(const el_material *material)
 {
-    return (material->flags & EL_MATERIAL_NO_DEPTH) == 0 && material->shading < EL_SHADE_OVERDRAW &&
-           (!EL_WITH_MIXED || (uint8_t)(material->alpha + 1U) <= 1U) &&
+    return (material->flags & (EL_MATERIAL_NO_DEPTH | EL_MATERIAL_WIRES)) == 0 &&
+           material->shading < EL_SHADE_OVERDRAW && (!EL_WITH_MIXED || (uint8_t)(material->alpha + 1U) <= 1U) &&
            (material->texture == NULL || material->texture->image == NULL);
 }
 
@@ -460,7 +502,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     static show s;
     static moment m;
-    static outcome outcomes[2];
+    static outcome outcomes[WAYS];
     input in = {bytes, count};
     memset(&s, 0, sizeof s);
     memset(&m, 0, sizeof m);
@@ -470,27 +512,27 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     const uint8_t misalignment = take_u8(&in);
     take_show(&in, &s);
     const uint8_t choices = take_u8(&in);
-    manner manners[2] = {
+    manner manners[WAYS] = {
         {.way = way_of(s.scene.width, s.scene.height, lines[1], more[1]), .misalignment = misalignment % 8},
         {.way = way_of(s.scene.width, s.scene.height, lines[0], more[0])},
+        {.way = way_of(s.scene.width, s.scene.height, lines[0], more[1]), .cores = 1, .interlaced = true},
     };
     manners[0].reuse = choices % (EL_REUSES + 1);
     manners[0].cores = 1;
     manners[0].depth_prepass = (choices & 4) != 0 && can_draw_depth_first(&s);
     manners[1].cores = EL_WITH_WORKERS ? 1U + (choices >> 3) % MAX_CORES : 1U;
     m.show = &s;
-    for (unsigned i = 0; i < 2; i++) {
+    /* Neither samples nor a single line are interlaced. */
+    const unsigned ways = EL_WITH_INTERLACED && s.scene.samples == 0 && s.scene.height > 1 ? WAYS : WAYS - 1;
+    for (unsigned i = 0; i < ways; i++) {
         play(&m, &manners[i], &outcomes[i]);
-    }
-    FUZZ_EXPECT(outcomes[0].init == outcomes[1].init);
-    FUZZ_EXPECT(memcmp(outcomes[0].begin, outcomes[1].begin, sizeof outcomes[0].begin) == 0);
-    FUZZ_EXPECT(memcmp(outcomes[0].draws, outcomes[1].draws, sizeof outcomes[0].draws) == 0);
-    for (unsigned i = 0; i < s.frames; i++) {
-        expect_same_pictures(&outcomes[0].pictures[i], &outcomes[1].pictures[i]);
+        if (i > 0) {
+            expect_same(&s, &outcomes[0], &outcomes[i], manners[i].interlaced);
+        }
     }
     m.frame = s.frames - 1;
-    if (outcomes[1].init == EL_OK && outcomes[1].begin[m.frame] == EL_OK) {
-        expect_picked(&m, &outcomes[1]);
+    if (outcomes[0].init == EL_OK && outcomes[0].begin[m.frame] == EL_OK) {
+        expect_picked(&m, &outcomes[0]);
     }
     return 0;
 }

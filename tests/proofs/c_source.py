@@ -52,7 +52,14 @@ HEADERS = {
 DIVISION = ["base/divide.c", "base/reciprocals.c"]
 
 # What a unit calls in others, so that its functions can be linked; what those call in turn need not be named.
-MIXED = ["raster/fill_mixed.c", "raster/fill_mixed_line.c", "raster/texel_line.c", "raster/sampler.c", "raster/texture.c", "base/image.c"]
+MIXED = [
+    "raster/fill_mixed.c",
+    "raster/fill_mixed_line.c",
+    "raster/texel_line.c",
+    "raster/sampler.c",
+    "raster/texture.c",
+    "base/image.c",
+]
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],

@@ -227,6 +227,24 @@ def short_domain(machine: Machine) -> list[Any]:
     return [edge, *(machine.exactly("int32_t", n) for n in (ends.x0, ends.y0, ends.x1, ends.y1, ends.row))]
 
 
+def assume_cut_off(path: Path, ends: Ends, reciprocal: Poly, cut_off: Poly, unit: int) -> None:
+    """A step is dx times a reciprocal, of which 2^31 - r dy is lacking, without a part below a unit."""
+    magnitude = ends.dx if path.holds(ends.dx) else -ends.dx
+    lacks = 2**31 - reciprocal * ends.dy
+    path.assume_product(magnitude, lacks - 1)
+    path.assume_product(magnitude, ends.dy - lacks)
+    path.assume_product(cut_off, ends.dy)
+    path.assume_product(unit - 1 - cut_off, ends.dy)
+
+
+def expect_forward(path: Path, ends: Ends, forward: Poly, least: int) -> None:
+    """Steps go the edge's way, by `least` at least: between its rows as between its ends."""
+    path.prove(forward - least, "a step has its edge's direction")
+    path.assume_product(forward, ends.dy - 1 - ends.t)
+    path.assume_product(forward, ends.t)
+    path.assume_product(ends.dy, ends.dy - 1 - ends.t)
+
+
 def short_step_lemma(machine: Machine, step_q20: Number) -> Number:
     """2^11 e = dx (2^31 - r dy) + dy (dx r - 2^11 step): what the reciprocal lacks, and what is cut off."""
     path, step = machine.path, step_q20.poly
@@ -235,13 +253,9 @@ def short_step_lemma(machine: Machine, step_q20: Number) -> Number:
     ends = ENDS[id(path)]
     dx, dy = ends.dx, ends.dy
     ((reciprocal, _),) = ((Poly({(atom,): 1}), of) for atom, (_, of) in path.quotients.items() if of.terms == dy.terms)
-    lacks, cut_off = 2**31 - reciprocal * dy, dx * reciprocal - 2**11 * step
     right = path.holds(dx)
     magnitude = dx if right else -dx
-    path.assume_product(magnitude, lacks - 1)
-    path.assume_product(magnitude, dy - lacks)
-    path.assume_product(cut_off, dy)
-    path.assume_product(2**11 - 1 - cut_off, dy)
+    assume_cut_off(path, ends, reciprocal, dx * reciprocal - 2**11 * step, 2**11)
     narrow = machine.constant(machine.unit.constants["EL_EDGE_NARROW"])
     path.assume_product(narrow - magnitude, dy)
     e = dx * Q20 - step * dy
@@ -251,11 +265,7 @@ def short_step_lemma(machine: Machine, step_q20: Number) -> Number:
         path.assume_product(bound, ends.t)
     path.prove(reciprocal - 1, "a reciprocal is not 0")
     path.assume_product(magnitude if right else magnitude - 1, reciprocal)
-    forward = step if right else -step
-    path.prove(forward if right else forward - 1, "a step has its edge's direction")
-    path.assume_product(forward, ends.dy - 1 - ends.t)
-    path.assume_product(forward, ends.t)
-    path.assume_product(dy, ends.dy - 1 - ends.t)
+    expect_forward(path, ends, step if right else -step, 0 if right else 1)
     path.assume_product(511 - dy, dy)
     return step_q20
 

@@ -27,7 +27,7 @@ import contracts
 from c_source import ARMV6M
 from proof import Fault, Machine, Number, Pointer, Poly, Subject, congruent
 from test_division_is_exact import digit, small_divisor
-from test_edges_are_exact import Ends, check_whole_part
+from test_edges_are_exact import Ends, assume_cut_off, check_whole_part, expect_forward
 
 FILE = "raster/tiny_triangle.c"
 HEADER = "raster/tiny.h"
@@ -240,13 +240,10 @@ def step_lemma(machine: Machine, value: Number) -> Number:
     path.assume_product(long - magnitude, dy)
     if "el_edge_make_q18.reciprocal" in machine.locals:
         reciprocal = machine.locals["el_edge_make_q18.reciprocal"].poly
-        lacks, cut_off = 2**31 - reciprocal * dy, dx * reciprocal - 2**13 * step
+        cut_off = dx * reciprocal - 2**13 * step
         path.prove(cut_off, "cut off downwards")
         path.prove(2**13 - 1 - cut_off, "by less than a unit")
-        path.assume_product(magnitude, lacks - 1)
-        path.assume_product(magnitude, dy - lacks)
-        path.assume_product(cut_off, dy)
-        path.assume_product(2**13 - 1 - cut_off, dy)
+        assume_cut_off(path, ends, reciprocal, cut_off, 2**13)
     e = dx * Q18 - step * dy
     for bound in (16 * e + 17 * dy, 17 * dy - 16 * e):
         path.prove(bound, "-17 dy <= 16 e <= 17 dy")
@@ -255,11 +252,7 @@ def step_lemma(machine: Machine, value: Number) -> Number:
     if "el_edge_make_q18.reciprocal" in machine.locals:
         path.prove(reciprocal - 1, "a reciprocal is not 0")
         path.assume_product(magnitude if right else magnitude - 1, reciprocal)
-    forward = step if right else -step
-    path.prove(forward, "a step has its edge's direction")
-    path.assume_product(forward, ends.dy - 1 - ends.t)
-    path.assume_product(forward, ends.t)
-    path.assume_product(dy, ends.dy - 1 - ends.t)
+    expect_forward(path, ends, step if right else -step, 0)
     path.assume_product(255 - dy, dy)
     return value
 

@@ -20,6 +20,9 @@ ALL_FRAMES = 10
 FIRST_FRAMES = 120
 HALFWAY = 60
 
+NOT_IN_SMALL_CODE = {"materials", "wires"}
+"""Scenes whose features are left out where -Os asks for small code."""
+
 Crcs = dict[str, list[str]]
 """Scene -> a CRC-32 per frame."""
 
@@ -100,9 +103,10 @@ def need_compiler(configuration: Configuration) -> None:
 def test_crcs_are_the_golden_ones(configuration: Configuration) -> None:
     need_compiler(configuration)
     folder = configuration.build()
-    expected = golden(configuration.step)
     wrong = []
     for level in configuration.levels:
+        left_out = NOT_IN_SMALL_CODE if level == "Os" else set()
+        expected = {scene: crcs for scene, crcs in golden(configuration.step).items() if scene not in left_out}
         found = drawn(folder / f"frames-{level}", configuration.core)
         differ = [scene for scene in {**expected, **found} if found.get(scene) != expected.get(scene)]
         frames = sum(map(len, expected.values()))

@@ -10,11 +10,42 @@ static inline el_painter *el_renderer_painter(el_renderer *renderer, unsigned wo
     return !EL_WITH_WORKERS || worker == 0 ? &renderer->painter : &renderer->others[worker - 1U].painter;
 }
 
+/* Samples per pixel, as they are asked for; 0 is 1. */
+static inline unsigned el_config_samples(const el_config *config)
+{
+#if EL_WITH_SAMPLES
+    return config->samples;
+#else
+    (void)config;
+    return 1U;
+#endif
+}
+
+static inline bool el_config_has_stripes(const el_config *config)
+{
+#if EL_WITH_STRIPES
+    return config->stripes != EL_STRIPES_NONE;
+#else
+    (void)config;
+    return false;
+#endif
+}
+
 /* Samples per pixel of the frame: a view of what is drawn has one. */
 static inline unsigned el_renderer_samples(const el_renderer *renderer)
 {
-    const unsigned samples = renderer->config.samples;
-    return EL_WITH_SAMPLES && samples > 1U && renderer->config.view == EL_DEBUG_PICTURE ? samples : 1U;
+    const unsigned samples = el_config_samples(&renderer->config);
+    return samples > 1U && renderer->config.view == EL_DEBUG_PICTURE ? samples : 1U;
+}
+
+/* Lines of the frame: the screen's, or a field's. */
+static inline int32_t el_renderer_lines(const el_renderer *renderer)
+{
+#if EL_WITH_INTERLACED
+    return renderer->lines;
+#else
+    return renderer->config.height;
+#endif
 }
 
 /* Counts a use of `bytes` of the list's memory in the peak. */

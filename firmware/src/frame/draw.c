@@ -21,7 +21,7 @@ static void find_rows(el_drawing *d)
 {
     const el_renderer *const renderer = d->renderer;
     d->culling.row_begin = renderer->pass_begin * renderer->config.band_lines;
-    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, renderer->lines);
+    d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, el_renderer_lines(renderer));
 }
 
 /* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
@@ -349,6 +349,18 @@ static bool can_mix(const el_renderer *renderer, const el_material *material)
 }
 #endif
 
+static inline bool wants_wires(const el_material *material, el_shading shading)
+{
+#if EL_WITH_WIRES
+    return shading == EL_SHADE_FLAT && (material->flags & EL_MATERIAL_WIRES) != 0;
+#else
+    (void)material;
+    (void)shading;
+    return false;
+#endif
+}
+
+#if EL_WITH_WIRES
 /* Whether a material that is to draw wires can. */
 static bool can_draw_wires(const el_renderer *renderer, const el_material *material)
 {
@@ -357,8 +369,10 @@ static bool can_draw_wires(const el_renderer *renderer, const el_material *mater
         return false;
     }
 #endif
-    return EL_WITH_WIRES && material->shading == EL_SHADE_FLAT && (!EL_WITH_SAMPLES || renderer->list.reach == 0);
+    return material->shading == EL_SHADE_FLAT && (!EL_WITH_SAMPLES || renderer->list.reach == 0) &&
+           !el_config_has_stripes(&renderer->config);
 }
+#endif
 
 static el_status check(const el_mesh *mesh, const el_material *material)
 {
@@ -397,9 +411,11 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     if (EL_WITH_SAMPLES && material->shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
         return EL_ERROR_MATERIAL;
     }
+#if EL_WITH_WIRES
     if ((material->flags & EL_MATERIAL_WIRES) != 0 && !can_draw_wires(renderer, material)) {
         return EL_ERROR_MATERIAL;
     }
+#endif
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -431,7 +447,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
 #if EL_WITH_MIXED
     state.flags |= finish_of(material, shading);
 #endif
-    const bool has_wires = EL_WITH_WIRES && shading == EL_SHADE_FLAT && (material->flags & EL_MATERIAL_WIRES) != 0;
+    const bool has_wires = wants_wires(material, shading);
     state.flags |= (uint8_t)(has_wires ? EL_FINISH_WIRES : 0);
     el_drawing d = {
         .renderer = renderer,
@@ -445,7 +461,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
                     .width = renderer->config.width,
                     .height = renderer->config.height,
                     .reach = EL_WITH_SAMPLES ? renderer->list.reach : 0,
-                    .field = renderer->list.field},
+                    .field = el_list_field(&renderer->list)},
         .by_clusters = EL_WITH_CLUSTERS && mesh->cluster_count > 1,
     };
 #if EL_WITH_WIRES

@@ -2,6 +2,7 @@
 
 #include "base/fixed.h"
 #include "base/hash.h"
+#include "frame/bands.h"
 #include "raster/fog.h"
 
 #if EL_WITH_REUSE
@@ -240,8 +241,8 @@ void el_quiet_begin(el_renderer *renderer)
     quiet->band_takers = quiet->takers;
     quiet->looks = (reuse_of(renderer) & EL_REUSE_FRAME) != 0;
     if (quiet->looks) {
-        const uint32_t settings =
-            hash_pair(config->background, (uint32_t)config->samples << 8 | config->uv_error_log2, config->shading_off);
+        const uint32_t settings = hash_pair(
+            config->background, (uint32_t)el_config_samples(config) << 8 | config->uv_error_log2, config->shading_off);
         quiet->submitted = hash_view(settings, &renderer->view);
     }
 }

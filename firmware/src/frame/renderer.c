@@ -14,47 +14,51 @@ _Static_assert(sizeof(el_screen_vertex) == EL_VERTEX_BYTES, "the size that EL_ME
 _Static_assert(sizeof(el_worker) <= EL_PAINTER_BYTES, "the size that EL_WORKERS_BYTES counts with");
 _Static_assert(sizeof(el_run) + EL_DRAW_STATE_BYTES <= EL_RUN_BYTES, "the size that EL_MEMORY_BYTES counts with");
 
+#if EL_WITH_SAMPLES
 static bool samples_are_valid(const el_config *config)
 {
-    return config->samples <= 1 || (EL_WITH_SAMPLES && (config->samples == 4 || config->samples == EL_MAX_SAMPLES) &&
+    return config->samples <= 1 || ((config->samples == 4 || config->samples == EL_MAX_SAMPLES) &&
                                     !config->depth_prepass && config->view == EL_DEBUG_PICTURE);
 }
+#endif
 
-static bool interlacing_is_valid(const el_config *config)
+static inline uint16_t bands_of(uint32_t lines, uint32_t band_lines)
 {
-    return !config->interlaced ||
-           (EL_WITH_INTERLACED && config->height > 1 && config->samples <= 1 && config->reuse == 0 &&
-            !config->depth_prepass && config->view == EL_DEBUG_PICTURE && config->shading_off == 0 &&
-            (config->workers == NULL || config->workers->count == 1));
-}
-
-static bool sinks_take_gaps(const el_config *config)
-{
-    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
-        if (config->sinks[i] != NULL && !config->sinks[i]->takes_gaps) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* The frame has so many lines. */
-static void set_lines(el_renderer *renderer, uint32_t lines)
-{
-    const uint32_t band_lines = renderer->config.band_lines;
-    renderer->lines = (uint16_t)lines;
-    renderer->band_count = (uint16_t)((lines + band_lines - 1U) / band_lines);
+    return (uint16_t)((lines + band_lines - 1U) / band_lines);
 }
 
 #if EL_WITH_INTERLACED
+static el_status check_interlacing(const el_config *config)
+{
+    if (config->height == 1 || el_config_samples(config) > 1 || el_config_has_stripes(config) || config->reuse != 0 ||
+        config->depth_prepass || config->view != EL_DEBUG_PICTURE || config->shading_off != 0 ||
+        (config->workers != NULL && config->workers->count > 1)) {
+        return EL_ERROR_SIZE;
+    }
+    for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
+        if (config->sinks[i] != NULL && !config->sinks[i]->takes_gaps) {
+            return EL_ERROR_ARGUMENT;
+        }
+    }
+    return EL_OK;
+}
+
 /* The other half of the lines than in the frame before; the even ones first. */
 static void begin_field(el_renderer *renderer)
 {
     const uint8_t field = renderer->list.field == EL_FIELD_EVEN ? EL_FIELD_ODD : EL_FIELD_EVEN;
     renderer->list.field = field;
-    set_lines(renderer, (renderer->config.height + (field == EL_FIELD_EVEN ? 1U : 0U)) / 2U);
+    renderer->lines = (uint16_t)((renderer->config.height + (field == EL_FIELD_EVEN ? 1U : 0U)) / 2U);
+    renderer->band_count = bands_of(renderer->lines, renderer->config.band_lines);
 }
 #endif
+
+/* What sinks see. */
+static uint16_t width_shown(const el_renderer *renderer)
+{
+    const uint16_t width = renderer->config.width;
+    return el_config_has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
+}
 
 el_status el_init(el_renderer *renderer, const el_config *config)
 {
@@ -64,21 +68,32 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
         config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
-        (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS) ||
-        !samples_are_valid(config) || !interlacing_is_valid(config)) {
+        (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS)) {
         return EL_ERROR_SIZE;
     }
-    if (config->interlaced && !sinks_take_gaps(config)) {
-        return EL_ERROR_ARGUMENT;
+#if EL_WITH_SAMPLES
+    if (!samples_are_valid(config)) {
+        return EL_ERROR_SIZE;
     }
-    const uint32_t width = config->width;
+#endif
+#if EL_WITH_INTERLACED
+    if (config->interlaced && check_interlacing(config) != EL_OK) {
+        return check_interlacing(config);
+    }
+#endif
+#if EL_WITH_STRIPES
+    if (config->stripes >= EL_STRIPES_COUNT || (config->stripes != EL_STRIPES_NONE && config->width > EL_MAX_STRIPED)) {
+        return EL_ERROR_SIZE;
+    }
+#endif
+    const uint32_t width = el_config_has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
     const uint32_t lines = config->band_lines;
     if (config->workers != NULL &&
         (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
         return EL_ERROR_SIZE;
     }
     const uint32_t workers = EL_WITH_WORKERS && config->workers != NULL ? config->workers->count : 1U;
-    const uint32_t sample_bytes = EL_WITH_SAMPLES ? EL_SAMPLES_BYTES(width, lines, config->samples) : 0U;
+    const uint32_t sample_bytes = EL_SAMPLES_BYTES(width, lines, el_config_samples(config));
     const uint32_t least = EL_MIN_MEMORY_BYTES(width, config->height, lines) +
                            EL_WORKERS_BYTES(width, config->height, lines, workers) + workers * sample_bytes;
     if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {
@@ -86,8 +101,14 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     memset(renderer, 0, sizeof *renderer);
     renderer->config = *config;
+#if EL_WITH_STRIPES
+    renderer->config.width = (uint16_t)width;
+#endif
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
-    set_lines(renderer, config->height);
+#if EL_WITH_INTERLACED
+    renderer->lines = config->height;
+#endif
+    renderer->band_count = bands_of(config->height, lines);
     renderer->pass_bands = renderer->band_count;
 
     renderer->workers = (uint8_t)workers;
@@ -120,7 +141,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     for (unsigned i = 0; i < 2 * workers; i++) {
         el_painter *const painter = el_renderer_painter(renderer, i / 2);
         el_band *const band = &painter->bands[i % 2];
-        band->width = config->width;
+        band->width = renderer->config.width;
         band->pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
         painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
         band->depth = painter->depth[i % 2];
@@ -153,10 +174,15 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     if (renderer == NULL || camera == NULL || renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const el_status status = el_view_make(&renderer->view, camera, renderer->config.width, renderer->config.height);
+    const el_status status = el_view_make(&renderer->view, camera, width_shown(renderer), renderer->config.height);
     if (status != EL_OK) {
         return status;
     }
+#if EL_WITH_STRIPES
+    if (el_config_has_stripes(&renderer->config)) {
+        el_view_cut_pixels(&renderer->view, EL_STRIPES_PER_PIXEL);
+    }
+#endif
     memset(&renderer->stats, 0, sizeof renderer->stats);
     renderer->in_frame = 1;
 #if EL_WITH_SAMPLES
@@ -172,7 +198,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
         if (sink != NULL) {
-            sink->begin(sink->context, renderer->config.width, renderer->config.height);
+            sink->begin(sink->context, width_shown(renderer), renderer->config.height);
         }
     }
     return EL_OK;

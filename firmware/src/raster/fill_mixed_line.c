@@ -133,11 +133,6 @@ static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colo
     }
 }
 
-static inline void blend_flat(const el_mixed_brush *b, const stretch *s)
-{
-    blend_colour(s->pixels, s->count, b->flat, b->alpha);
-}
-
 static EL_SPECIALISED void show(const el_mixed_brush *b, const stretch *s, const uint16_t *shown, bool is_tested,
                                 bool writes)
 {
@@ -188,29 +183,41 @@ static EL_APART void blend_and_write(const el_mixed_brush *b, const stretch *s, 
 /* Its colours but for texels, which are there already. */
 static void finish_colours(const el_mixed_brush *b, const stretch *s)
 {
-    const unsigned look = b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS | EL_FILL_DITHER);
-    if ((look & EL_FILL_TEXTURE) == 0 && look != EL_FILL_COLOURS) {
-        fill_line(s->colour, look == 0 ? b->flat : 0xFFFF, s->count);
+    const bool has_texels = (b->kind & EL_FILL_TEXTURE) != 0;
+    const bool has_colours = (b->kind & EL_FILL_COLOURS) != 0;
+    const bool is_dithered = (b->kind & EL_FILL_DITHER) != 0;
+    if (!has_texels && (!has_colours || is_dithered)) {
+        fill_line(s->colour, has_colours ? 0xFFFF : b->flat, s->count);
     }
-    if ((look & EL_FILL_DITHER) != 0) {
+    if (is_dithered) {
         shade_dithered(b, s);
-    } else if (look == EL_FILL_COLOURS) {
-        colour_plain(b, s);
-    } else if ((look & EL_FILL_COLOURS) != 0) {
+    } else if (has_colours && has_texels) {
         shade_plain(b, s);
+    } else if (has_colours) {
+        colour_plain(b, s);
     }
     if (b->fog != NULL) {
         add_fog(b, s);
     }
 }
 
-static void draw_stretch(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
+/* Of what has no texels all shows alike. */
+static void draw_plain_stretch(const el_mixed_brush *b, const stretch *s)
 {
-    const bool writes = b->writes_depth && (b->kind & EL_FILL_DEPTH) != 0;
-    if (b->way == EL_MIXED_BLENDED && b->fog == NULL && (b->kind & (EL_FILL_TEXTURE | EL_FILL_COLOURS)) == 0) {
-        blend_flat(b, s);
+    const bool is_flat = (b->kind & EL_FILL_COLOURS) == 0 && b->fog == NULL;
+    if (b->way == EL_MIXED_BLENDED && is_flat) {
+        blend_colour(s->pixels, s->count, b->flat, b->alpha);
         return;
     }
+    finish_colours(b, s);
+    if (b->way == EL_MIXED_BLENDED) {
+        blend(b, s);
+    }
+}
+
+static void draw_textured_stretch(const el_mixed_brush *b, const stretch *s, const uint16_t *shown)
+{
+    const bool writes = b->writes_depth && (b->kind & EL_FILL_DEPTH) != 0;
     finish_colours(b, s);
     if (b->way == EL_MIXED_BLENDED) {
         blend(b, s);
@@ -267,7 +274,7 @@ static EL_APART void draw_plain(const el_mixed_brush *b, const el_mixed_span *sp
         const uint32_t count = r.end - r.begin < LINE ? r.end - r.begin : LINE;
         uint16_t *const pixels = span->row + r.begin;
         const stretch s = {span->y, r.begin, count, pixels, NULL, colours_of(b, pixels, line)};
-        draw_stretch(b, &s, NULL);
+        draw_plain_stretch(b, &s);
         r.begin += count;
         if (r.begin == r.end && r.begin < x_end) {
             go_on(&r, b);
@@ -324,7 +331,7 @@ static EL_APART void draw_textured(el_mixed_brush *b, const el_mixed_span *span,
             drawn = end;
             if (drawn == r.end || drawn - r.begin >= EL_MAX_PIECE) {
                 const stretch s = {span->y, r.begin, drawn - r.begin, pixels, span->depth + r.begin, colour};
-                draw_stretch(b, &s, shown);
+                draw_textured_stretch(b, &s, shown);
                 r.begin = drawn;
                 if (drawn == r.end && drawn < x_end) {
                     go_on(&r, b);

@@ -20,7 +20,9 @@ void el_list_init(el_list *list, void *memory, uint32_t bytes, uint16_t *bins, u
 #if EL_WITH_SAMPLES
     list->reach = 0;
 #endif
+#if EL_WITH_INTERLACED
     list->field = EL_FIELD_NONE;
+#endif
     /* 2^s / lines rounded up is too much by less than lines / 2^s of 1 / lines, which rows below 2^11 take to less than
      * 1 / lines when 2^s >= 2^11 lines; so the whole part of their product is exact. The product is at most
      * 2^11 * (2^16 + 1). */
@@ -142,7 +144,7 @@ static int32_t first_row(const el_list *list, const el_record *record, el_record
     }
     const el_point *const points = record->at.points;
     const int32_t top = el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y));
-    return el_field_row(list->field, el_first_centre(top - reach));
+    return el_field_row(el_list_field(list), el_first_centre(top - reach));
 }
 
 typedef struct run_records {

@@ -48,7 +48,10 @@ typedef enum el_record_kind {
 } el_record_kind;
 
 enum { EL_DRAW_MIRRORED = 1 }; /* front faces run clockwise on the screen */
+#ifndef __cplusplus            /* edgeline.h leads here, and there these words are others */
 _Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED | EL_FINISH_WIRES)) == 0, "they share a byte");
+_Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+#endif
 
 /* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
@@ -78,7 +81,6 @@ static inline el_shading el_shading_of(const el_draw_state *draw)
 /* EL_FINISH_DITHER, if what is shaded so is dithered. */
 static inline unsigned el_dithering_of(const el_material *material, el_shading shading)
 {
-    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
     return (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
 }
 
@@ -157,11 +159,13 @@ typedef struct el_list {
     uint16_t run; /* the run that takes records; 0: none */
     uint16_t bin_count;
     uint16_t band_lines;
-    bool is_thin;       /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
-    bool is_shared;     /* triangles have shares */
-    bool has_gaps;      /* el_list_keep_rows closes them */
-    uint8_t reach;      /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
-    uint8_t field;      /* el_field: rows are its lines */
+    bool is_thin;   /* whole triangles are EL_RECORD_THIN from now on, until the list is cleared */
+    bool is_shared; /* triangles have shares */
+    bool has_gaps;  /* el_list_keep_rows closes them */
+    uint8_t reach;  /* of samples, as in a culling (frame/cull.h): rows begin that much earlier */
+#if EL_WITH_INTERLACED
+    uint8_t field; /* el_field: rows are its lines */
+#endif
     uint8_t band_shift; /* see el_list_band_of: a product in place of a division */
     uint32_t bands_per_row;
     uint8_t *base;  /* 8-byte aligned */
@@ -169,6 +173,17 @@ typedef struct el_list {
     uint32_t used;  /* bytes */
     uint16_t *bins; /* last record of each band; 0: none */
 } el_list;
+
+/* The frame's el_field. */
+static inline uint8_t el_list_field(const el_list *list)
+{
+#if EL_WITH_INTERLACED
+    return list->field;
+#else
+    (void)list;
+    return 0; /* EL_FIELD_NONE */
+#endif
+}
 
 static inline void *el_list_at(const el_list *list, uint16_t name)
 {

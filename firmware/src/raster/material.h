@@ -33,8 +33,10 @@ enum {
     EL_MATERIAL_NO_DEPTH = 2,  /* neither tests nor writes depth: what is drawn later covers what was earlier */
     EL_MATERIAL_FLAT_MEAN = 4, /* flat: the mean of the three vertices' colours instead of the first vertex' */
     EL_MATERIAL_DITHER = 8,    /* vertex colours and light: 4x4 ordered dithering to the display's levels (dither.h) */
-    EL_MATERIAL_BLEND_DEPTH = 16, /* what is blended writes depth, too; not with el_config.depth_prepass */
-    EL_MATERIAL_WIRES = 32        /* draws edges, below, in place of what is within */
+#if EL_WITH_WIRES
+    EL_MATERIAL_WIRES = 32, /* draws edges, below, in place of what is within */
+#endif
+    EL_MATERIAL_BLEND_DEPTH = 16 /* what is blended writes depth, too; not with el_config.depth_prepass */
 };
 
 /* Ambient light and one directional light, both white. */

@@ -291,8 +291,8 @@ void el_texel_line_make(el_texel_line *line, const el_sampler *sampler)
     line->repeats = sampler->u.period == width && sampler->v.period == height && is_power(width) && is_power(height);
     if (line->repeats) {
         line->texels = el_texels_of(&(el_texture){.texels = image->pixels,
-                                                  .width_log2 = (uint8_t)(el_bit_length_u32(width) - 1),
-                                                  .height_log2 = (uint8_t)(el_bit_length_u32(height) - 1)});
+                                                  .width_log2 = (uint8_t)(31U - el_leading_zeros(width)),
+                                                  .height_log2 = (uint8_t)(31U - el_leading_zeros(height))});
     }
     choose_loop(line);
     const bool is_plain = line->repeats && image->format == EL_IMAGE_RGB565 && !sampler->is_open;
