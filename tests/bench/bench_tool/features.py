@@ -55,6 +55,7 @@ OPTIONS = (
     Option("SAMPLES", "4 and 8 samples per pixel"),
     Option("WIRES", "wireframes"),
     Option("INTERLACED", "every other line", fast_only=True),
+    Option("STRIPES", "a display's stripes as pixels"),
     Option("DEBUG_VIEWS", "debug views"),
 )
 
