@@ -95,6 +95,7 @@ static el_fog fog;
 static el_lamp lamps[LAMPS];
 static uint8_t colours[sizeof teapot_positions / sizeof teapot_positions[0]][3];
 static el_mesh lit;
+static el_highlight highlight;
 
 static const el_light light = {.direction_q30 = {-520841137, 781261706, 520841137}, .ambient = 80, .diffuse = 175};
 
@@ -131,6 +132,7 @@ static void prepare(const use *u)
 {
     u->scene->place_camera(0, &camera);
     (void)el_fog_linear(&fog, &camera, 0xBDF7, 4 * EL_UNIT_Q16, 32 * EL_UNIT_Q16);
+    (void)el_highlight_make(&highlight, 16);
     texture = s2_texture;
     image = (el_image){.width = (uint16_t)(1U << s2_texture.width_log2),
                        .height = (uint16_t)(1U << s2_texture.height_log2),
@@ -160,7 +162,7 @@ static el_status draw(uint32_t frame, el_renderer *renderer)
     if (in_use->what == ONE_LAMP || in_use->what == ALL_LAMPS) {
         const el_lighting lighting = {.lamps = lamps,
                                       .lamp_count = in_use->what == ONE_LAMP ? 1 : LAMPS,
-                                      .shininess_log2 = 4,
+                                      .highlight = &highlight,
                                       .ambient = {40, 40, 40},
                                       .specular = {120, 120, 120},
                                       .colour = {226, 146, 74}};

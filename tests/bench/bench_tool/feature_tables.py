@@ -21,7 +21,10 @@ def options(found: Mapping[str, Any]) -> str:
     for option in OPTIONS:
         cells = []
         for build in (SMALL, FAST):
-            pair = found["options"][option.name][build]
+            pair = found["options"][option.name].get(build)
+            if pair is None:
+                cells += ["never", "", ""]
+                continue
             cells += [_more(pair["with"][kind] - pair["without"][kind]) for kind in ("code", "renderer", "arena")]
             cells[-3] += "" if pair["on"] else ", off"
         rows.append([f"`{option.name}`", option.title, *cells])

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,11 +27,12 @@ TEXTURED = ("S2", "S2-no-depth")
 
 @dataclass(frozen=True)
 class Option:
-    """An EL_WITH_ of base/options.h, and the standard scenes that use it."""
+    """An EL_WITH_ of base/options.h, and the standard scenes that use it. `fast_only`: small code cannot have it."""
 
     name: str
     title: str
     used_by: tuple[str, ...] = ()
+    fast_only: bool = False
 
 
 OPTIONS = (
@@ -52,12 +53,15 @@ OPTIONS = (
     Option("MIXED", "blending, fog, images as textures"),
     Option("MIPMAPS", "mipmaps"),
     Option("SAMPLES", "4 and 8 samples per pixel"),
+    Option("WIRES", "wireframes"),
+    Option("INTERLACED", "every other line", fast_only=True),
+    Option("STRIPES", "a display's stripes as pixels"),
     Option("DEBUG_VIEWS", "debug views"),
 )
 
 # What is linked only where it is called: functions that bring all of it.
 MODULES: dict[str, tuple[str, ...]] = {
-    "lamps": ("el_light_vertices", "el_light_triangles"),
+    "lamps": ("el_light_vertices", "el_light_triangles", "el_highlight_make"),
     "fog's tables": ("el_fog_linear", "el_fog_exponential"),
     "picking": ("el_pick_begin", "el_pick_draw", "el_pick_end"),
     "instances": ("el_instances_draw",),
@@ -84,6 +88,7 @@ USED_MEMORY = {
     "a second core": "EL_WORKERS_BYTES(320, 240, 8, 2)",
     "fog, a table": "sizeof(el_fog)",
     "lamps, per vertex or triangle": "3",
+    "a highlight's table": "sizeof(el_highlight)",
     "picking": "EL_PICK_BYTES(320, 240)",
     "a polygon of 100 edges": "EL_POLYGON_BYTES(100, 320)",
 }
@@ -146,12 +151,12 @@ class Build:
         return {"code": code, **_bytes(self.compiler, f"{name}-memory", OWN_MEMORY, options)}
 
 
-def _measure_options(build: Build) -> dict[str, dict[str, Any]]:
+def _measure_options(build: Build, options: Iterable[Option]) -> dict[str, dict[str, Any]]:
     """With and without each option, and whether the build has it by itself."""
     with ThreadPoolExecutor(2) as pool:
         usual = pool.submit(build.sizes, {})
         others = {
-            option.name: pool.submit(build.sizes, {option.name: 1 - build.defaults[option.name]}) for option in OPTIONS
+            option.name: pool.submit(build.sizes, {option.name: 1 - build.defaults[option.name]}) for option in options
         }
         found = {}
         for name, other in others.items():
@@ -176,12 +181,16 @@ def _measure_modules(build: Build) -> dict[str, int]:
 def measure_bytes(small: Build, fast: Build) -> dict[str, Any]:
     """Of each option with and without; of each module; and the memory of their users."""
     builds = {SMALL: small, FAST: fast}
-    options = {kind: _measure_options(build) for kind, build in builds.items()}
+    of = {SMALL: [option for option in OPTIONS if not option.fast_only], FAST: OPTIONS}
+    options = {kind: _measure_options(build, of[kind]) for kind, build in builds.items()}
     modules = {kind: _measure_modules(build) for kind, build in builds.items()}
     any_option = {kind: pairs[OPTIONS[0].name] for kind, pairs in options.items()}
     return {
         "defaults": {kind: pair["with" if pair["on"] else "without"] for kind, pair in any_option.items()},
-        "options": {option.name: {kind: options[kind][option.name] for kind in builds} for option in OPTIONS},
+        "options": {
+            option.name: {kind: options[kind][option.name] for kind in builds if option.name in options[kind]}
+            for option in OPTIONS
+        },
         "modules": {name: {kind: modules[kind][name] for kind in builds} for name in MODULES},
         "memory": _bytes(fast.compiler, "used", USED_MEMORY),
     }

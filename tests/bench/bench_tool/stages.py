@@ -103,6 +103,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/geometry/aim.c", "*", REST),
     ("firmware/src/geometry/animation.c", "*", REST),
     ("firmware/src/geometry/detail.c", "*", REST),
+    ("firmware/src/geometry/elm*.c", "*", REST),
     ("firmware/src/geometry/hierarchy.c", "*", REST),
     ("firmware/src/geometry/lights.c", "*", REST),
     ("firmware/src/geometry/orbit.c", "*", REST),
