@@ -178,15 +178,17 @@ enum { EL_STREAM_WAITING, EL_STREAM_RUNNING, EL_STREAM_GONE };
 /* The frame that is being drawn. */
 typedef struct el_stream_frame {
     bool sending;
-    bool alone;             /* the host asked for lines: each packet does without what the host may not have */
-    bool full;              /* ROLL: the link took no more; the rest is left out, from `stop` on */
-    bool mixed;             /* ROLL, or interlaced: a line is not what the host will have */
-    uint8_t refreshed;      /* bit i: line `refresh` + i has been sent */
-    uint8_t input;          /* the INPUT that was taken last before it began */
-    uint16_t number;        /* frames begun before it, modulo 65536 */
-    uint16_t bands;         /* BAND packets sent */
-    uint16_t stop;          /* see `full` */
-    uint16_t next_line;     /* interlaced: the one after the last that `digest` has; 0 in other frames */
+    bool alone;        /* the host asked for lines: each packet does without what the host may not have */
+    bool full;         /* ROLL: the link took no more; the rest is left out, from `stop` on */
+    bool mixed;        /* ROLL, or interlaced: a line is not what the host will have */
+    uint8_t refreshed; /* bit i: line `refresh` + i has been sent */
+    uint8_t input;     /* the INPUT that was taken last before it began */
+    uint16_t number;   /* frames begun before it, modulo 65536 */
+    uint16_t bands;    /* BAND packets sent */
+    uint16_t stop;     /* see `full` */
+#if EL_WITH_INTERLACED
+    uint16_t next_line; /* interlaced: the one after the last that `digest` has; 0 in other frames */
+#endif
     uint32_t begin_us;      /* when it began */
     uint32_t encode_us;     /* spent in the sink, waiting for the link included */
     uint32_t begin_cycles;  /* the same in cycles */

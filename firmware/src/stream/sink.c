@@ -118,6 +118,7 @@ static void take_line(el_stream *stream, const uint16_t *pixels, const uint16_t 
     frame->digest = el_changes_digest(frame->digest, el_changes_line_crc(sent, width, stream->segment));
 }
 
+#if EL_WITH_INTERLACED
 /* Of an interlaced frame, lines up to `end` that it leaves as they are: what was sent of them last. */
 static void keep_lines(el_stream *stream, uint32_t end)
 {
@@ -143,6 +144,7 @@ static void take_field(el_stream *stream, const el_band *band)
         el_stream_end_bands(stream);
     }
 }
+#endif
 
 static void take_lines(el_stream *stream, const el_band *band)
 {
@@ -168,9 +170,12 @@ static void rows(void *context, el_band *band, unsigned slot)
     if (stream->frame.sending) {
         const uint32_t begin_us = el_stream_now_us(stream);
         const uint32_t begin_cycles = now_cycles(stream);
-        if (el_band_gap(band) != 0) {
+#if EL_WITH_INTERLACED
+        if (band->gap != 0) {
             take_field(stream, band);
-        } else {
+        } else
+#endif
+        {
             take_lines(stream, band);
         }
         stream->frame.encode_us += el_stream_now_us(stream) - begin_us;
@@ -243,9 +248,11 @@ static bool finish(el_stream *stream, const el_stats *stats)
     if (frame->sending) {
         const uint32_t begin_us = el_stream_now_us(stream);
         const uint32_t begin_cycles = now_cycles(stream);
+#if EL_WITH_INTERLACED
         if (frame->next_line > 0) {
             keep_lines(stream, stream->config.height);
         }
+#endif
         el_stream_end_bands(stream);
         frame->encode_us += el_stream_now_us(stream) - begin_us;
         frame->encode_cycles += now_cycles(stream) - begin_cycles;
