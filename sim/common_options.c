@@ -1,6 +1,7 @@
 #include "common_options.h"
 
 #include <limits.h>
+#include <string.h>
 
 #include "options.h"
 #include "report.h"
@@ -41,6 +42,19 @@ static bool take_samples(el_common_options *options, const char *text)
     return true;
 }
 
+static bool take_stripes(el_common_options *options, const char *text)
+{
+    static const char *const names[EL_STRIPES_COUNT] = {"none", "rgb", "bgr"};
+    for (uint8_t i = 0; i < EL_STRIPES_COUNT; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            options->machine.stripes = i;
+            return true;
+        }
+    }
+    el_report("--stripes takes none, rgb or bgr, not '%s'", text);
+    return false;
+}
+
 bool el_common_options_take(el_common_options *options, int which, const char *text)
 {
     long value;
@@ -68,6 +82,8 @@ bool el_common_options_take(el_common_options *options, int which, const char *t
         return true;
     case EL_OPTION_SAMPLES:
         return take_samples(options, text);
+    case EL_OPTION_STRIPES:
+        return take_stripes(options, text);
     case EL_OPTION_FRAMES:
         return el_option_integer("--frames", text, 1, INT_MAX, &options->frames);
     case EL_OPTION_PANEL:
@@ -108,6 +124,10 @@ bool el_common_options_check(el_common_options *options)
         return false;
     }
     if (options->machine.panel != NULL && !fit_panel(options)) {
+        return false;
+    }
+    if (options->machine.stripes != EL_STRIPES_NONE && options->machine.width > EL_MAX_STRIPED) {
+        el_report("--stripes is for pictures of at most %d pixels' width", (int)EL_MAX_STRIPED);
         return false;
     }
     return el_option_band(options->band, options->machine.height, &options->machine.band_lines);

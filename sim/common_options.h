@@ -20,6 +20,7 @@ enum {
     EL_OPTION_ROTATION,
     EL_OPTION_THREADS,
     EL_OPTION_SAMPLES,
+    EL_OPTION_STRIPES,
     EL_OPTION_OWN
 };
 
@@ -31,6 +32,7 @@ enum {
         {"rotation", required_argument, NULL, EL_OPTION_ROTATION},                                                     \
         {"threads", required_argument, NULL, EL_OPTION_THREADS},                                                       \
         {"samples", required_argument, NULL, EL_OPTION_SAMPLES},                                                       \
+        {"stripes", required_argument, NULL, EL_OPTION_STRIPES},                                                       \
     {                                                                                                                  \
         "uv-error", required_argument, NULL, EL_OPTION_UV_ERROR                                                        \
     }

@@ -81,12 +81,19 @@ static el_display_config choose_display(const el_machine_config *config)
     return display;
 }
 
+/* Pixels of a line while it is drawn. */
+static unsigned columns_of(const el_machine_config *config)
+{
+    return config->stripes != EL_STRIPES_NONE ? EL_STRIPED_WIDTH((unsigned)config->width) : config->width;
+}
+
 /* What threads and samples take beside what every renderer has. */
 static unsigned added_bytes(const el_machine_config *config, unsigned band_lines)
 {
+    const unsigned columns = columns_of(config);
     const unsigned cores = config->threads > 1 ? config->threads : 1;
-    return EL_WORKERS_BYTES((unsigned)config->width, (unsigned)config->height, band_lines, config->threads) +
-           cores * EL_SAMPLES_BYTES((unsigned)config->width, band_lines, config->samples);
+    return EL_WORKERS_BYTES(columns, (unsigned)config->height, band_lines, config->threads) +
+           cores * EL_SAMPLES_BYTES(columns, band_lines, config->samples);
 }
 
 static bool open_renderer(el_machine *machine)
@@ -102,6 +109,7 @@ static bool open_renderer(el_machine *machine)
         .uv_error_log2 = config->uv_error_log2,
         .depth_prepass = config->depth_prepass,
         .samples = config->samples,
+        .stripes = config->stripes,
         .reuse = config->sparing ? EL_REUSES : 0,
         .memory = machine->arena,
         .memory_bytes = machine->arena_bytes,
@@ -113,7 +121,7 @@ static bool open_renderer(el_machine *machine)
         const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
         el_report("an arena of %zu bytes is too small: %u x %u in bands of %u lines needs %u at least",
                   machine->arena_bytes, config->width, config->height, config->band_lines,
-                  EL_MIN_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines) +
+                  EL_MIN_MEMORY_BYTES(columns_of(config), (unsigned)config->height, band_lines) +
                       added_bytes(config, band_lines));
     } else if (status != EL_OK) {
         el_report("%s", el_machine_message(status));
@@ -134,7 +142,7 @@ bool el_machine_open(el_machine *machine, const el_machine_config *config)
     const unsigned band_lines = config->band_lines < 1 ? 1 : config->band_lines;
     machine->arena_bytes = config->arena_bytes != 0
                                ? config->arena_bytes
-                               : EL_MEMORY_BYTES((unsigned)config->width, (unsigned)config->height, band_lines,
+                               : EL_MEMORY_BYTES(columns_of(config), (unsigned)config->height, band_lines,
                                                  EL_MACHINE_VERTICES, EL_MACHINE_TRIANGLES, EL_MACHINE_DRAWS) +
                                      added_bytes(config, band_lines);
     if (config->threads > 1) {

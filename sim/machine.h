@@ -23,6 +23,7 @@ typedef struct el_machine_config {
     el_rotation rotation;      /* of that panel */
     el_lcd_tap tap;            /* of the display's wire */
     uint8_t samples;           /* per pixel; 0 is 1 */
+    uint8_t stripes;           /* el_stripes */
     bool depth_prepass;        /* el_config.depth_prepass */
     bool sparing;              /* what has not changed is neither drawn nor sent */
 } el_machine_config;

@@ -16,8 +16,8 @@ static const struct {
     {"render", el_command_render,
      "[--scene NAME | --mesh FILE.elm [--mesh FILE.elm ...]] [--size WxH] [--band N] [--arena BYTES]\n"
      "               [--panel NAME [--rotation 0|90|180|270]] [--uv-error 2|4|8|16|32] [--frames N] [--threads N]\n"
-     "               [--samples 1|4|8] [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats]\n"
-     "               [--depth-prepass]\n"
+     "               [--samples 1|4|8] [--stripes none|rgb|bgr]\n"
+     "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats] [--depth-prepass]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
      "               [--shading flat|gouraud|textured]\n"

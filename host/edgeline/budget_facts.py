@@ -19,8 +19,8 @@ EL_TRIANGLE_BYTES = 24
 EL_VERTEX_BYTES = 10
 
 STRUCT_BYTES: dict[int, dict[str, int]] = {
-    32: {"el_renderer": 428, "el_tft": 72, "el_oled": 44, "el_stream": 1476},
-    64: {"el_renderer": 536, "el_tft": 112, "el_oled": 64, "el_stream": 1568},
+    32: {"el_renderer": 428, "el_tft": 72, "el_oled": 44, "el_stream": 1480},
+    64: {"el_renderer": 536, "el_tft": 112, "el_oled": 64, "el_stream": 1576},
 }
 """By the bits of a pointer: 32 on microcontrollers, 64 in the simulator."""
 

@@ -17,7 +17,7 @@ from golden import GOLDEN, UPDATE, expect_golden, stored_crcs
 from sim_commands import Simulator
 
 CRCS = GOLDEN / "pages.crc"
-PAGES = ("card", "horizon", "hud")
+PAGES = ("card", "lines", "horizon", "hud")
 FRAMES = 60
 EVERY = 10
 

@@ -142,7 +142,9 @@ def test_small_code_takes_what_it_begins_without(
     assert drawn == (everything if option == "HIDDEN" else nothing_hidden)
 
 
-@pytest.mark.parametrize("option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES", "INTERLACED"])
+@pytest.mark.parametrize(
+    "option", ["CARRY", "THIN", "CLUSTERS", "PREPASS", "WORKERS", "REUSE", "SAMPLES", "INTERLACED"]
+)
 def test_without_what_makes_no_pixel(everything: Drawn, tmp_path: Path, option: str) -> None:
     assert _draw(tmp_path, f"-DEL_WITH_{option}=0") == everything
 

@@ -435,7 +435,8 @@ static void expect_same(const show *s, const outcome *whole, const outcome *othe
     }
 }
 
-/* Neither what is seen through nor what counts pixels: the pixel's depth is that of what is picked. */
+/* Neither what is seen through nor what counts pixels, nor wires, whose triangles are picked: the pixel's depth is that of
+ * what is picked. */
 static bool is_plain(const el_material *material)
 {
     return (material->flags & (EL_MATERIAL_NO_DEPTH | EL_MATERIAL_WIRES)) == 0 &&

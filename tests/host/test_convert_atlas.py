@@ -18,7 +18,7 @@ from edgeline.convert import elm
 from edgeline.convert.atlas import BORDER, BORDER_WITH_LEVELS, LEVELS, Place, arranged
 from edgeline.errors import EdgelineError
 
-SIZES = [(16, 16), (8, 4), (32, 16), (1, 1)]
+SIZES = [(16, 16), (1, 4), (32, 16), (2, 2)]
 CELL = 32
 """Pixels of a square in the picture; whole pixels to each texel of all images."""
 
@@ -42,9 +42,9 @@ def squares(folder: Path, plain: bool = False, shifts: tuple[float, ...] = (0.0,
     return folder / "m.obj"
 
 
-def drawn(simulator: str, folder: Path, scale: int = 1) -> npt.NDArray[np.uint16]:
-    """The squares in a row, CELL // scale pixels each; of all .elm files in the folder."""
-    width, height = 4 * CELL // scale, CELL // scale
+def drawn(simulator: str, folder: Path, side: int = CELL) -> npt.NDArray[np.uint16]:
+    """The squares in a row, so many pixels each; of all .elm files in the folder."""
+    width, height = 4 * side, side
     words: list[object] = [simulator, "render", "--raw", folder / "m.raw", "--size", f"{width}x{height}"]
     for path in sorted(folder.glob("*.elm")):
         words += ["--mesh", path]
@@ -69,16 +69,16 @@ def test_an_atlas_looks_the_same(simulator: str, tmp_path: Path, mipmaps: bool) 
     assert len(np.unique(apart)) > 300
 
 
-def test_neighbours_do_not_show_in_smaller_levels(simulator: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("kind", ["nearest", "bilinear"])
+def test_neighbours_do_not_show_in_smaller_levels(simulator: str, tmp_path: Path, kind: str) -> None:
     """Squares of one colour each stay that, however far away."""
     model = squares(tmp_path)
     colours = (0xF800, 0x07E0, 0x001F, 0xFFFF)
     for i, (rgb, size) in enumerate(zip(((255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)), SIZES, strict=True)):
         Image.new("RGB", size, rgb).save(tmp_path / f"{i}.png")
-    convert(model, "-o", tmp_path / "m.elm", "--atlas", "--mipmaps")
-    for scale in (1, 2, 4, 8):
-        shown = drawn(simulator, tmp_path, scale)
-        side = CELL // scale
+    convert(model, "-o", tmp_path / "m.elm", "--atlas", "--mipmaps", "--filter", kind)
+    for side in range(1, CELL):
+        shown = drawn(simulator, tmp_path, side)
         for i, colour in enumerate(colours):
             assert set(shown[:, i * side : (i + 1) * side].reshape(-1).tolist()) == {colour}
 

@@ -95,9 +95,9 @@ def test_scale_and_centre(quad: Path) -> None:
 
 def test_headers_name_the_command_that_makes_them_again(quad: Path) -> None:
     output = quad.with_suffix(".h")
-    words = "--crease 12.3456789 --up z --scale 0.5 --centre --triangles 1234567"
-    convert(quad, "-o", output, *words.split())
-    assert f"Made by: edgeline convert quad.obj {words}\n" in output.read_text()
+    for words in ("--crease 12.3456789 --up z --scale 0.5 --centre --triangles 1234567", "--crease 0 --mipmaps"):
+        convert(quad, "-o", output, *words.split())
+        assert f"Made by: edgeline convert quad.obj {words}\n" in output.read_text()
 
 
 def test_a_missing_library_is_only_noted(quad: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -156,6 +156,8 @@ def test_positions_are_rounded_to_nearest_and_the_error_is_reported(seed: int) -
     result = quantise(soup)
     stored = np.ldexp(result.mesh.positions.astype(np.float64), result.mesh.scale_log2)[result.mesh.triangles]
     assert np.abs(stored - soup.positions).max() == pytest.approx(result.position_error, rel=1e-6)
+    rms = np.sqrt(((stored - soup.positions) ** 2).mean())
+    assert rms == pytest.approx(result.position_rms, rel=1e-6)
     assert result.position_error <= math.ldexp(0.5, result.mesh.scale_log2)
 
 

@@ -74,6 +74,16 @@ def test_one_header_for_all(folder: Path, capsys: pytest.CaptureFixture[str]) ->
     assert len(re.findall(r"^static const el_texture ", text, re.MULTILINE)) == 3
 
 
+def test_no_mesh_has_the_name_of_another_s_part(folder: Path) -> None:
+    for name, material in (("stone", "oak wood texture"), ("Oak.wood", "oak wood level1 image"), ("paint", "material")):
+        for path in (folder / "m.obj", folder / "m.mtl"):
+            path.write_text(path.read_text().replace(f"mtl {name}\n", f"mtl {material}\n"))
+    convert(folder / "m.obj", "-o", folder / "made.h", "--mipmaps")
+    names = re.findall(r"^static const \w+ (\w+)", (folder / "made.h").read_text(), re.MULTILINE)
+    assert len(set(names)) == len(names) > 20
+    assert {"made_oak_wood", "made_oak_wood_texture_1", "made_oak_wood_level1_image_3", "made_material"} <= set(names)
+
+
 def test_asked_for_one_texture_or_none_it_stays_one_mesh(folder: Path) -> None:
     (folder / "m.obj").write_text(TWO.replace("f 1 2 5\nf 2 6 5\n", ""))
     for options in (["--no-texture"], ["--texture", str(folder / "oak.png")]):

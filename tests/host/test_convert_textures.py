@@ -6,6 +6,7 @@ An .elm's texels are those of the C header (test_convert_writes_what_the_firmwar
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -50,11 +51,11 @@ def square(folder: Path, uvs: tuple[float, float] = (0.0, 1.0), materials: str =
     return folder / "m.obj"
 
 
-def drawn(simulator: str, path: Path, side: int) -> Picture:
-    """What the simulator shows of the square, which fills the picture."""
+def drawn(simulator: str, path: Path, side: int, eye: str = "0,0,1") -> Picture:
+    """What the simulator shows of the square, which fills the picture if nothing else is said."""
     raw = path.with_suffix(".raw")
     words = [simulator, "render", "--mesh", path, "--size", f"{side}x{side}", "--raw", raw]
-    subprocess.run([*words, "--eye", "0,0,1", "--look-at", "0,0,0", "--fov", "90"], check=True)
+    subprocess.run([*words, f"--eye={eye}", "--look-at", "0,0,0", "--fov", "90"], check=True)
     return np.fromfile(raw, "<u2").reshape(side, side)
 
 
@@ -74,7 +75,8 @@ def converted(model: Path, *options: object) -> tuple[Path, Texture]:
 def test_every_texel_is_drawn_as_it_is(simulator: str, tmp_path: Path, form: Format, dither: str) -> None:
     Image.fromarray(smooth_picture()).save(tmp_path / "image.png")
     output, texture = converted(square(tmp_path), "--texture-format", form.option, "--dither", dither)
-    assert texture.format == form
+    made = textured(Pixels(smooth_picture()), Style(form, dither))
+    assert np.array_equal(texture.texels, made.texels) and np.array_equal(texture.palette, made.palette)
     shown = to_rgb(drawn(simulator, output, 4 * SIDE))[2::4, 2::4]
     assert np.array_equal(shown, np.where(texture.shown()[..., None], texture.colours(), 0))
     assert len(np.unique(texture.texels)) > (1 if form == Format.MASK else 4)
@@ -133,16 +135,18 @@ def test_borders_go_on_as_asked(simulator: str, tmp_path: Path, wrap: Wrap) -> N
 @pytest.mark.parametrize("wrap", ["clamp", "mirror"])
 def test_borders_that_are_not_left_cost_nothing(simulator: str, tmp_path: Path, wrap: str) -> None:
     """All of the image and no more is drawn by the fast loops that repeat, and none of its other side shows."""
-    rgb = np.zeros((SIDE, SIDE, 3), np.uint8)
-    rgb[:, : SIDE // 2] = 255, 0, 0
-    rgb[:, SIDE // 2 :] = 0, 0, 255
+    rgb = np.zeros((2, 2, 3), np.uint8)
+    rgb[:, 0] = 255, 0, 0
+    rgb[:, 1] = 0, 0, 255
     Image.fromarray(rgb).save(tmp_path / "image.png")
     output, texture = converted(square(tmp_path), "--wrap", wrap)
     assert texture.is_plain
-    for side in (63, 64, 97):
-        shown = drawn(simulator, output, side)
-        assert set(shown[:, : side // 3].reshape(-1).tolist()) == {0xF800}
-        assert set(shown[:, -side // 3 :].reshape(-1).tolist()) == {0x001F}
+    uvs = elm.decode(output.read_bytes())[0].uvs
+    assert uvs is not None and (uvs.min(), uvs.max()) == (2, 2 * 16 - 2)  # an eighth of a texel from the borders
+    for eye in ("0,0,1.3", "-1.2,0,0.6", "1.2,0.1,0.5", "1.4,0.2,0.3"):
+        shown = drawn(simulator, output, 400, eye)
+        lines = ("".join({0xF800: "r", 0x001F: "b"}.get(pixel, " ") for pixel in row).strip() for row in shown.tolist())
+        assert all(re.fullmatch("r*b*", line) for line in lines)
     assert converted(square(tmp_path), "--wrap", wrap, "--filter", "bilinear")[1].wrap != (Wrap.REPEAT, Wrap.REPEAT)
 
 

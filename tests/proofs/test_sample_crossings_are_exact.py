@@ -1,4 +1,4 @@
-"""Where a short edge passes the samples of a row (firmware/src/raster/small_sampled.c), for every short edge.
+"""Where a short edge passes the samples of a row (firmware/src/raster/small_sampled_setup.c), for every short edge.
 
 From a corner, t units above a sample, the edge has gone t dx / dy units to the side. What is computed of that in
 2^-20 of a pixel is step q + part (r + y): step = floor(dx R / 2^11) with R = floor((2^31 - 1) / dy), part =
@@ -23,7 +23,7 @@ ADDED = 48
 
 def _offsets() -> set[int]:
     """Of the samples from the pixel's centre, up and down."""
-    text = (SOURCE / "samples.c").read_text(encoding="utf-8")
+    text = (SOURCE / "samples.h").read_text(encoding="utf-8")
     places = re.findall(r"AT\((-?\d+), (-?\d+)\)", text)
     assert len(places) == 12
     return {int(y) for _, y in places}
@@ -49,7 +49,7 @@ def test_every_short_edge_at_every_sample() -> None:
 
 
 def test_the_source_is_what_was_checked() -> None:
-    text = (SOURCE / "small_sampled.c").read_text(encoding="utf-8")
+    text = (SOURCE / "small_sampled_setup.c").read_text(encoding="utf-8")
     for line in (
         "const int32_t step = el_product_down_11(to->x - from->x, el_reciprocal_of_short(to->y - from->y));",
         "const int32_t part = step >> EL_SUBPIXEL_BITS;",

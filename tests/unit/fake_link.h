@@ -316,6 +316,10 @@ static inline void host_take_split(host_view *host, const uint8_t *body, size_t 
 
 static inline void host_take_band(host_view *host, const uint8_t *body, size_t count)
 {
+    if (host->width == 0) {
+        TEST_FAIL_MESSAGE("BAND before HELLO");
+        return;
+    }
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32(8, count);
     uint32_t y = get_u16(body + 2);
     uint32_t lines = body[4];

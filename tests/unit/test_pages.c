@@ -40,8 +40,8 @@ static void test_pages_are_the_same_in_all_bands_and_on_all_cores(void)
         const char *name;
         uint32_t frame, crc;
     } known[] = {
-        {"card", 0, 0x1EE97736},     {"card", 37, 0xBC602ACE}, {"horizon", 0, 0x9C48537F},
-        {"horizon", 37, 0x58B6613B}, {"hud", 0, 0x13EAAAE4},   {"hud", 37, 0xDFD20213},
+        {"card", 0, 0x1EE97736},    {"card", 37, 0xBC602ACE},    {"lines", 0, 0xD1312ED5}, {"lines", 37, 0xBCC4D236},
+        {"horizon", 0, 0x9C48537F}, {"horizon", 37, 0x58B6613B}, {"hud", 0, 0x13EAAAE4},   {"hud", 37, 0xDFD20213},
     };
     static const int32_t heights[] = {8, 240, 7, 1};
     for (unsigned i = 0; i < sizeof known / sizeof known[0]; i++) {
@@ -57,7 +57,7 @@ static void test_pages_are_the_same_in_all_bands_and_on_all_cores(void)
 
 static void test_pages_are_found_by_name(void)
 {
-    TEST_ASSERT_EQUAL_UINT(3, el_page_count);
+    TEST_ASSERT_EQUAL_UINT(4, el_page_count);
     for (size_t i = 0; i < el_page_count; i++) {
         TEST_ASSERT_EQUAL_PTR(el_pages[i], el_page_find(el_pages[i]->name));
     }

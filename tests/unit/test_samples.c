@@ -52,7 +52,7 @@ static el_sampled_rest draw_sampled(const el_corner corners[3], const el_surface
 static uint32_t sample_at(const el_sampled_target *target, int32_t x, int32_t y, unsigned k)
 {
     const uint32_t pixel = (uint32_t)((y - TOP) * WIDTH + x);
-    if ((mixed[(uint32_t)(y - TOP) * EL_MIXED_WORDS(WIDTH) + (uint32_t)x / 32U] >> (x % 32) & 1U) != 0) {
+    if ((mixed[pixel / 32U] << (pixel % 32U) & 0x80000000U) != 0) {
         const uint32_t mask = colours[pixel];
         return samples[pixel * target->count + (mask == 0 ? k : (mask >> k & 1U) ^ 1U)];
     }

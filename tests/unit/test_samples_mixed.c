@@ -55,8 +55,7 @@ static void draw(samples_picture *picture, unsigned count, const el_corner corne
 /* Depth and colour of a sample, wherever they are. */
 static uint32_t sample_at(const samples_picture *picture, unsigned count, uint32_t pixel, unsigned k)
 {
-    const uint32_t x = pixel % SIZE;
-    if ((picture->mixed[pixel / SIZE * EL_MIXED_WORDS(SIZE) + x / 32U] >> (x % 32U) & 1U) != 0) {
+    if ((picture->mixed[pixel / 32U] << (pixel % 32U) & 0x80000000U) != 0) {
         const uint32_t mask = picture->colours[pixel];
         return picture->samples[pixel * count + (mask == 0 ? k : (mask >> k & 1U) ^ 1U)];
     }

@@ -306,9 +306,6 @@ static void test_wires_do_not_depend_on_bands(void)
     for (; s.round < ROUNDS; s.round++) {
         fill_mixed_scene(&s, &scene);
         for (unsigned i = 0; i < SCENE_MESHES; i++) {
-#if EL_WITH_MIXED
-            scene.meshes[i].material.alpha = 0; /* what is blended is not drawn behind a wire that comes later */
-#endif
             if (i == 1 || any_below(&s, 2) == 0) {
                 make_wires(&s, &scene.meshes[i], edges[i]);
             }

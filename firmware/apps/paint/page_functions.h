@@ -5,6 +5,7 @@
 #include "edgeline.h"
 
 void el_card_draw(uint32_t frame, const el_canvas *canvas);
+void el_lines_draw(uint32_t frame, const el_canvas *canvas);
 void el_horizon_draw(uint32_t frame, const el_canvas *canvas);
 void el_hud_draw(uint32_t frame, const el_canvas *canvas);
 

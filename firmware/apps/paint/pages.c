@@ -8,10 +8,11 @@
 
 static const el_page card = {"card", "polygons, lines, shapes, images and text: one of everything", NULL, NIGHT,
                              el_card_draw};
+static const el_page lines = {"lines", "lines of all widths, sharp and smooth", NULL, NIGHT, el_lines_draw};
 static const el_page horizon = {"horizon", "an attitude indicator with tapes", NULL, BLACK, el_horizon_draw};
 static const el_page hud = {"hud", "glass and text over the scene `field`", "field", BLACK, el_hud_draw};
 
-const el_page *const el_pages[] = {&card, &horizon, &hud};
+const el_page *const el_pages[] = {&card, &lines, &horizon, &hud};
 const size_t el_page_count = sizeof el_pages / sizeof el_pages[0];
 
 const el_page *el_page_find(const char *name)

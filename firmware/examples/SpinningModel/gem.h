@@ -1,5 +1,5 @@
 /* gem.obj as a mesh for Edgeline.
- * Made by: edgeline convert gem.obj
+ * Made by: edgeline convert gem.obj --crease 0
  * gem: 30 triangles, 64 vertices, unit 2^-14, 948 bytes. */
 #ifndef MESH_GEM_H
 #define MESH_GEM_H
@@ -53,6 +53,9 @@ static const el_mesh gem = {
     .scale_log2 = -14,
     .centre = {0, 889, 0},
     .radius = 16459,
+};
+static const el_material gem_material = {
+    .shading = EL_SHADE_GOURAUD,
 };
 /* clang-format on */
 

@@ -106,6 +106,18 @@ EL_INLINE uint64_t el_multiply_u16(uint64_t a, uint32_t b)
 #endif
 }
 
+/* sum + a * b modulo 2^64, b < 2^16: what is added costs nothing where the long product has an instruction that adds. */
+EL_INLINE uint64_t el_add_product_u16(uint64_t sum, uint64_t a, uint32_t b)
+{
+#if defined(EL_PRODUCTS_IN_HALVES)
+    return sum + el_multiply_u16(a, b);
+#else
+    const uint64_t low = sum + (uint64_t)(uint32_t)a * b;
+    const uint32_t high = (uint32_t)(low >> 32) + (uint32_t)(a >> 32) * b;
+    return (uint64_t)high << 32 | (uint32_t)low;
+#endif
+}
+
 /* a * b modulo 2^64, |b| < 2^16. */
 EL_INLINE uint64_t el_multiply_u64(uint64_t a, int32_t b)
 {

@@ -128,10 +128,16 @@
 #define EL_WITH_INTERLACED (!EL_SMALL_CODE)
 #endif
 
+/* A display's stripes of red, green and blue as pixels side by side. Without, which is what small code begins with, there is no
+ * el_config.stripes. */
+#ifndef EL_WITH_STRIPES
+#define EL_WITH_STRIPES (!EL_SMALL_CODE)
+#endif
+
 #if (EL_WITH_GOURAUD | EL_WITH_TEXTURE | EL_WITH_DITHER | EL_WITH_OVERDRAW | EL_WITH_LIGHT | EL_WITH_ORTHOGRAPHIC |    \
      EL_WITH_STATS | EL_WITH_CARRY | EL_WITH_THIN | EL_WITH_CLUSTERS | EL_WITH_HIDDEN | EL_WITH_PREPASS |              \
      EL_WITH_WORKERS | EL_WITH_REUSE | EL_WITH_MIXED | EL_WITH_MIPMAPS | EL_WITH_SAMPLES | EL_WITH_WIRES |             \
-     EL_WITH_INTERLACED | EL_WITH_DEBUG_VIEWS) &                                                                       \
+     EL_WITH_INTERLACED | EL_WITH_STRIPES | EL_WITH_DEBUG_VIEWS) &                                                     \
     ~1
 #error "each EL_WITH_ option is 0 or 1"
 #endif

@@ -14,6 +14,14 @@ static inline uint16_t el_rgb565(uint8_t red, uint8_t green, uint8_t blue)
     return (uint16_t)(((red >> 3) << 11) | ((green >> 2) << 5) | (blue >> 3));
 }
 
+/* A pixel with gaps between its channels, each of which takes the sum of 31 pixels: green in bits 31..21, red in 20..11, blue in
+ * 10..0. Of what is above a pixel's 16 bits nothing is left. */
+#define EL_RGB565_SPREAD 0x07E0F81FU
+static inline uint32_t el_rgb565_spread(uint32_t pixel)
+{
+    return (pixel << 16 | (pixel & 0xFFFFU)) & EL_RGB565_SPREAD;
+}
+
 /* 0..255 as 0..256. */
 static inline uint32_t el_alpha_256(uint8_t alpha)
 {

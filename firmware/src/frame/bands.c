@@ -69,6 +69,26 @@ static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *la
     }
 }
 
+#if EL_WITH_STRIPES
+/* A layer draws pixels: what it drew into a cleared band, of which they take the first third, is cut into stripes then. */
+static void draw_under_stripes(el_painter *painter, const el_config *config)
+{
+    el_band *const buffer = &painter->bands[painter->current];
+    buffer->width = (uint16_t)(config->width / EL_STRIPES_PER_PIXEL);
+    draw_layer(painter, config->under);
+    el_stripes_cut(buffer->pixels, (uint32_t)buffer->width * buffer->lines);
+    buffer->width = config->width;
+}
+
+static void make_pixels_of_stripes(el_painter *painter, const el_config *config)
+{
+    el_band *const buffer = &painter->bands[painter->current];
+    buffer->width = (uint16_t)(config->width / EL_STRIPES_PER_PIXEL);
+    el_stripes_filter(buffer->pixels, painter->depth[painter->current], buffer->width, buffer->lines,
+                      config->stripes == EL_STRIPES_BGR);
+}
+#endif
+
 /* Makes `band` of the screen the one that is drawn into; its buffer is free, or open. */
 static el_target open_band(el_painter *painter, const el_renderer *renderer, uint16_t band)
 {
@@ -87,7 +107,14 @@ static el_target open_band(el_painter *painter, const el_renderer *renderer, uin
         const uint32_t pixels = (uint32_t)buffer->lines * config->width;
         el_fill_u16(buffer->pixels, el_debug_begin_band(renderer, painter), pixels);
         el_fill_u16(depth, EL_WITH_PREPASS && painter->first_depth ? FARTHEST : EMPTY, pixels);
-        draw_layer(painter, config->under);
+#if EL_WITH_STRIPES
+        if (config->stripes != EL_STRIPES_NONE) {
+            draw_under_stripes(painter, config);
+        } else
+#endif
+        {
+            draw_layer(painter, config->under);
+        }
         painter->band_is_open = 1;
     }
     return (el_target){
@@ -111,6 +138,11 @@ OF_WORKERS_TOO void el_bands_complete(el_painter *painter, const el_renderer *re
     el_painter_resolve_samples(painter, renderer);
 #endif
     el_debug_finish_band(renderer, painter);
+#if EL_WITH_STRIPES
+    if (renderer->config.stripes != EL_STRIPES_NONE) {
+        make_pixels_of_stripes(painter, &renderer->config);
+    }
+#endif
     draw_layer(painter, renderer->config.over);
 }
 

@@ -30,6 +30,7 @@
 #include "raster/list.h"
 #include "raster/material.h"
 #include "raster/samples.h"
+#include "raster/stripes.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -95,6 +96,12 @@ enum {
                     : EL_ROUND_UP_8(4U * EL_MIXED_WORDS(width) * (band_lines)) +                                       \
                           EL_ROUND_UP_8(4U * (samples) * (width) * (band_lines)))
 
+/* A display's stripes. With those, all of the above is for this width; the width itself is 1..EL_MAX_STRIPED. */
+typedef enum el_stripes { EL_STRIPES_NONE, EL_STRIPES_RGB, EL_STRIPES_BGR, EL_STRIPES_COUNT } el_stripes;
+
+enum { EL_MAX_STRIPED = EL_MAX_WIDTH / EL_STRIPES_PER_PIXEL };
+#define EL_STRIPED_WIDTH(width) (EL_STRIPES_PER_PIXEL * (width))
+
 /* What of the frame before need not be made again; bits of el_config.reuse. The renderer's sinks must get frames from no
  * other one, and only sinks that can do without unchanged lines (el_sink.unchanged) save anything. */
 enum {
@@ -129,9 +136,15 @@ typedef struct el_config {
     /* Each frame draws, and hands to the sinks, every other line alone, the even and the odd ones by turns: half of the
      * wire, and of the pixels, for a picture that moves twice as smoothly over a slow wire. Two frames of what stands still
      * make the whole picture, to the last bit. For sinks that take gaps (el_sink.takes_gaps); with one sample, one worker and
-     * without `reuse`, `depth_prepass` and `view`. */
+     * without `stripes`, `reuse`, `depth_prepass` and `view`. */
 #if EL_WITH_INTERLACED
     bool interlaced;
+#endif
+    /* el_stripes, for good: the display's stripes from left to right, in thirds of a pixel (raster/stripes.h). The frame is drawn
+     * as one of EL_STRIPED_WIDTH(width) pixels a line: it takes the memory of that, and about the time. Goes with `samples`, of
+     * which each stripe has as many. `over` is drawn sharp, `under` and a debug view are filtered like the rest. */
+#if EL_WITH_STRIPES
+    uint8_t stripes;
 #endif
     bool depth_prepass;  /* draw the depth of each band first, so that every pixel is shaded once: where shading is dear
                               and much lies behind other things; may be changed between frames too */
@@ -182,7 +195,7 @@ typedef struct el_renderer {
     uint32_t list_bytes;  /* all that lies between the bins and the depth bands */
     uint32_t depth_bytes; /* of all depth bands */
     uint32_t fixed_bytes; /* bands and bins */
-    el_config config;
+    el_config config;     /* its width that of the bands while they are drawn, in stripes if there are any */
     el_list list;
     el_stats stats;
     el_painter painter;  /* of the caller's core */

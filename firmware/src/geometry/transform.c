@@ -124,6 +124,12 @@ el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, u
     return EL_OK;
 }
 
+void el_view_cut_pixels(el_view *view, uint16_t columns)
+{
+    view->size[0] = (uint16_t)(view->size[0] * columns);
+    view->guard_shift[0] = guard_shift(view->size[0]);
+}
+
 /* Sign of the determinant: true for a reflection. */
 static bool is_reflection(const int32_t m_q30[3][3])
 {

@@ -45,6 +45,9 @@ typedef struct el_view {
  * EL_ERROR_CAMERA, EL_ERROR_RANGE (position) or EL_ERROR_SIZE. */
 el_status el_view_make(el_view *view, const el_camera *camera, uint16_t width, uint16_t height);
 
+/* Cuts each of its pixels into so many side by side; the screen shows the same. Pre: EL_MAX_WIDTH at most then. */
+void el_view_cut_pixels(el_view *view, uint16_t columns);
+
 enum {
     EL_CODE_LEFT = 1,
     EL_CODE_RIGHT = 2,

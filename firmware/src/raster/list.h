@@ -48,7 +48,10 @@ typedef enum el_record_kind {
 } el_record_kind;
 
 enum { EL_DRAW_MIRRORED = 1 }; /* front faces run clockwise on the screen */
+#ifndef __cplusplus            /* edgeline.h leads here, and there these words are others */
 _Static_assert((EL_DRAW_MIRRORED & (EL_FINISH_DITHER | EL_FINISH_MIXED | EL_FINISH_WIRES)) == 0, "they share a byte");
+_Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
+#endif
 
 /* What the triangles of a draw call have in common. */
 typedef struct el_draw_state {
@@ -78,7 +81,6 @@ static inline el_shading el_shading_of(const el_draw_state *draw)
 /* EL_FINISH_DITHER, if what is shaded so is dithered. */
 static inline unsigned el_dithering_of(const el_material *material, el_shading shading)
 {
-    _Static_assert(EL_MATERIAL_DITHER << 1 == 16 && EL_SHADE_GOURAUD << 4 == 16, "dithering is for vertex colours");
     return (unsigned)material->flags << 1 & (unsigned)shading << 4 & EL_FINISH_DITHER;
 }
 

@@ -245,7 +245,7 @@ static inline void mix(const el_sampled_place *at, uint32_t x, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         samples[i] = old;
     }
-    at->mixed[x / 32U] |= 1U << (x % 32U);
+    el_set_bit(at->mixed, at->first + x);
     at->depth[x] = 0;
     at->colour[x] = 0;
 }
@@ -526,11 +526,11 @@ el_sampled_rest el_sampled_draw(const el_corner corners[3], const el_surface *su
         return EL_SAMPLED_GOES_ON;
     }
 #if EL_WITH_SMALL_SAMPLED
-    const unsigned kind = el_fill_kind(surface);
+    const uint8_t kind = el_fill_kind(surface);
     el_small_shape shape;
     if ((kind == EL_FILL_DEPTH || kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) &&
         is_small(sorted, reach, target, &shape)) {
-        el_small_sampled_setup(place, sorted, &shape, (int32_t)area, surface, target->count, y);
+        el_small_sampled_setup(place, sorted, &shape, (int32_t)area, kind, surface->colour, target->count, y);
         return el_small_sampled_go_on(place, target, stats) ? EL_SAMPLED_CARRIED : EL_SAMPLED_DONE;
     }
 #else

@@ -8,27 +8,42 @@
 
 #include "raster/samples.h"
 
-/* A row of the band. */
+/* A row of the band, or all of it as one row. */
 typedef struct el_sampled_place {
     uint16_t *colour, *depth;
-    uint32_t *mixed, *samples;
+    uint32_t *samples;
+    uint32_t *mixed; /* the band's */
+    uint32_t first;  /* the number of the row's first pixel in the band, by which its bit is found */
 } el_sampled_place;
 
 static inline el_sampled_place el_sampled_place_at(const el_sampled_target *target, int32_t y)
 {
-    const uint32_t row = (uint32_t)(y - target->target.y);
-    const uint32_t width = (uint32_t)target->target.width;
+    const uint32_t first = (uint32_t)((y - target->target.y) * target->target.width);
     return (el_sampled_place){
-        .colour = target->target.colour + row * width,
-        .depth = target->target.depth + row * width,
-        .mixed = target->mixed + row * EL_MIXED_WORDS(width),
-        .samples = target->samples + row * width * target->count,
+        .colour = target->target.colour + first,
+        .depth = target->target.depth + first,
+        .samples = target->samples + first * target->count,
+        .mixed = target->mixed,
+        .first = first,
     };
+}
+
+/* Bits are numbered from the top: the first that is set is found by counting zeros before it. */
+#define EL_TOP_BIT 0x80000000U
+
+static inline bool el_bit_is_set(const uint32_t *bits, uint32_t i)
+{
+    return (bits[i / 32U] << (i % 32U) & EL_TOP_BIT) != 0;
+}
+
+static inline void el_set_bit(uint32_t *bits, uint32_t i)
+{
+    bits[i / 32U] |= EL_TOP_BIT >> (i % 32U);
 }
 
 static inline bool el_pixel_is_mixed(const el_sampled_place *at, uint32_t x)
 {
-    return (at->mixed[x / 32U] >> (x % 32U) & 1U) != 0;
+    return el_bit_is_set(at->mixed, at->first + x);
 }
 
 /* Gives each sample of a mixed pixel a word of its own. */
@@ -50,13 +65,15 @@ static inline void el_spread(const el_sampled_place *at, uint32_t x, uint32_t co
 /* Whether any of pixels [x, x_end) is, one at least. */
 static inline bool el_any_is_mixed(const el_sampled_place *at, uint32_t x, uint32_t x_end)
 {
-    const uint32_t last = (x_end - 1U) / 32U;
-    uint32_t word = x / 32U;
-    uint32_t any = at->mixed[word] & 0xFFFFFFFFU << (x % 32U);
+    const uint32_t i = at->first + x;
+    const uint32_t last_i = at->first + x_end - 1U;
+    const uint32_t last = last_i / 32U;
+    uint32_t word = i / 32U;
+    uint32_t any = at->mixed[word] & 0xFFFFFFFFU >> (i % 32U);
     for (; word < last && any == 0; any = at->mixed[word]) {
         word++;
     }
-    return word < last || (any & 0xFFFFFFFFU >> (31U - (x_end - 1U) % 32U)) != 0;
+    return word < last || (any & 0xFFFFFFFFU << (31U - last_i % 32U)) != 0;
 }
 
 /* A pixel whose samples have words of their own is mixed no longer, where all are the same. */
@@ -68,7 +85,7 @@ static inline void el_unmix(const el_sampled_place *at, uint32_t x, uint32_t cou
             return;
         }
     }
-    at->mixed[x / 32U] &= ~(1U << (x % 32U));
+    at->mixed[(at->first + x) / 32U] &= ~(EL_TOP_BIT >> ((at->first + x) % 32U));
     at->depth[x] = (uint16_t)(samples[0] >> 16);
     at->colour[x] = (uint16_t)samples[0];
 }

@@ -25,28 +25,44 @@ typedef struct el_sample_point {
     int16_t x, y;
 } el_sample_point;
 
+/* The standard patterns: one sample in each of so many rows, and in each of so many columns; in sixteenths of a pixel. Four are
+ * two and their opposites, from the top down. */
+#define EL_FOUR_SAMPLES(AT) AT(-2, -6), AT(6, -2), AT(-6, 2), AT(2, 6)
+#define EL_EIGHT_SAMPLES(AT) AT(1, -3), AT(-1, 3), AT(5, 1), AT(-3, -5), AT(-5, 5), AT(-7, -1), AT(3, 7), AT(7, -7)
+#define EL_SAMPLE_AT(x, y)                                                                                             \
+    {                                                                                                                  \
+        (x) * (EL_SUBPIXELS / 16), (y) * (EL_SUBPIXELS / 16)                                                           \
+    }
+
+/* For where `count` is known when this is compiled: few products are left of the points then. */
+static inline const el_sample_point *el_known_sample_points(unsigned count)
+{
+    static const el_sample_point four[] = {EL_FOUR_SAMPLES(EL_SAMPLE_AT)};
+    static const el_sample_point eight[] = {EL_EIGHT_SAMPLES(EL_SAMPLE_AT)};
+    return count == 4 ? four : eight;
+}
+
 /* How far samples are from the centre on either axis, in 1/EL_SUBPIXELS px, at most; 0 for one sample. */
 static inline uint8_t el_samples_reach(unsigned count)
 {
     return (uint8_t)(count <= 1 ? 0 : (count == 4 ? 6 : 7) * (EL_SUBPIXELS / 16));
 }
 
-/* Words of a band's mixed bits, a bit per pixel, row by row. */
+/* Words of a row's mixed bits, a bit per pixel; those of a band's rows lie behind each other without a gap. */
 #define EL_MIXED_WORDS(width) (((width) + 31U) / 32U)
 
 /* A band whose pixels have several samples. */
 typedef struct el_sampled_target {
     el_target target;
-    uint32_t *mixed; /* EL_MIXED_WORDS(width) per row */
-    uint32_t
-        *samples; /* of each pixel `count`, used where it is mixed (sampled_pixel.h); depth in the upper half, colour in
-                          the lower */
+    uint32_t *mixed; /* EL_MIXED_WORDS(width) per row at most */
+    /* Of each pixel `count`, used where it is mixed (sampled_pixel.h): depth in the upper half, colour in the lower. */
+    uint32_t *samples;
     unsigned count; /* 4 or 8 */
 } el_sampled_target;
 
 #if EL_WITH_SAMPLES
 
-/* The standard pattern of 4 or 8 samples: one in each of so many rows, and in each of so many columns. */
+/* The pattern of 4 or 8 samples. */
 const el_sample_point *el_sample_points(unsigned count);
 
 /* 1 where most triangles can be carried on from one target to the next. */

@@ -72,6 +72,13 @@ def name_from(stem: str, kind: str = "mesh") -> str:
     return name
 
 
+def is_name_of_part(name: str, mesh: str) -> bool:
+    """Whether a header of that mesh may give that name to one of its arrays, or its texture or material."""
+    parts = "positions|triangles|colours|triangle_colours|normals|uvs|clusters|offset_q16"
+    own = f"{parts}|(level[0-9]+_)?(texels|alpha|image|texture)|palette|material"
+    return re.fullmatch(f"{mesh}_({own})", name) is not None
+
+
 def wrap(items: Iterable[str]) -> list[str]:
     """`items` in lines of at most COLUMNS characters, each item followed by a comma."""
     lines: list[str] = []

@@ -101,8 +101,13 @@ def _add_texture_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--filter",
         choices=("file", "nearest", "bilinear"),
-        help="between texels (default: nearest, which is drawn some fifteen times as fast as bilinear)",
+        help="between texels (default: nearest, which is drawn several times as fast as bilinear)",
     )
+
+
+def is_given(value: object) -> bool:
+    """Whether that is an option's value; a number of 0 is one."""
+    return value is not None and value is not False
 
 
 def check_model_options(args: argparse.Namespace) -> None:
@@ -110,7 +115,7 @@ def check_model_options(args: argparse.Namespace) -> None:
     suffix = args.model.suffix.lower()
     if suffix not in (*READ, ".elm"):
         raise EdgelineError(f"{args.model}: models are read from {', '.join(READ)} or .elm; export it as one of these")
-    given = [f"--{name.replace('_', '-')}" for name in MODEL_OPTIONS if getattr(args, name) not in (None, False)]
+    given = [f"--{name.replace('_', '-')}" for name in MODEL_OPTIONS if is_given(getattr(args, name))]
     if suffix == ".elm" and given:
         raise EdgelineError(f"{given[0]} is for models in other formats; an .elm is passed on as it is")
     if args.crease is not None and not 0 <= args.crease <= 180:
@@ -140,6 +145,6 @@ def command_words(args: argparse.Namespace) -> str:
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
-        elif value not in (None, False):
+        elif is_given(value):
             words += [option, _word(value)]
     return shlex.join(words)

@@ -48,10 +48,11 @@ def all_of_rgb565() -> Colours:
 def those_of(palette: npt.NDArray[np.uint16]) -> Colours:
     """A palette's; of equally near ones the first."""
     seen = to_rgb(palette).astype(np.int64)
+    # |a - b|^2 without |a|^2. All numbers are whole and below 2^24: 32-bit floats hold them, in any order of sums.
+    towards, lengths = seen.astype(np.float32).T * -2, (seen * seen).sum(axis=1).astype(np.float32)
 
     def nearest(rgb: Ints) -> Ints:
-        apart = rgb[:, None] - seen[None]
-        return np.asarray((apart * apart).sum(axis=2).argmin(axis=1))
+        return np.asarray((rgb.astype(np.float32) @ towards + lengths).argmin(axis=1))
 
     apart = np.abs(seen[:, None] - seen[None]).max(axis=2)
     np.fill_diagonal(apart, 255)

@@ -16,7 +16,7 @@ import numpy as np
 from edgeline.convert import atlas, elm
 from edgeline.convert.clusters import with_clusters
 from edgeline.convert.gltf import parse_gltf
-from edgeline.convert.header import Look, NamedMesh, name_from
+from edgeline.convert.header import Look, NamedMesh, is_name_of_part, name_from
 from edgeline.convert.locality import per_triangle
 from edgeline.convert.mesh import MAX_TRIANGLES, check_triangle_count, has_area, quantise, scale_log2_for
 from edgeline.convert.model import source_from
@@ -121,7 +121,8 @@ def part_names(source: Source, name: str) -> list[str]:
     for i, part in enumerate(source.parts):
         candidate = f"{name}_{name_from(part.name) if part.name else 'plain'}"
         names.append(f"{candidate}_{i}" if candidate in names else candidate)
-    return names
+    # A header has arrays and structures of each mesh, too, whose names begin with its own.
+    return [f"{one}_{i}" if any(is_name_of_part(one, other) for other in names) else one for i, one in enumerate(names)]
 
 
 def style_of(args: argparse.Namespace) -> Style:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .frames import Verdicts
-from .machines import MAIN_CORES, BenchError, Machines
+from .frames import Verdicts, measure_alike
+from .machines import MAIN_CORES, Machines
 
 
 @dataclass(frozen=True)
@@ -20,18 +20,9 @@ class Drawing:
 
 def measure(machines: Machines, verdicts: Verdicts) -> list[Drawing]:
     """All drawings, on the main cores; each core must draw what this computer does."""
-    native = [line for line in machines.native("canvas") if line.words[0] != "empty"]
-    counts: dict[str, list[int]] = {}
-    for core in MAIN_CORES:
-        found = machines.target(core, "canvas")
-        if len(found) != len(native):
-            raise BenchError(f"{core} drew {len(found)} pictures, this computer {len(native)}")
-        counts[core] = [one.instructions for one in found]
-        for here, there in zip(native, found, strict=True):
-            verdicts.check(there.line == here, f"{core} draws {there.line}, this computer {here}")
     return [
-        Drawing(line.words[0], line.words[1], int(line.values["count"]), {core: counts[core][i] for core in MAIN_CORES})
-        for i, line in enumerate(native)
+        Drawing(line.words[0], line.words[1], int(line.values["count"]), counts)
+        for line, counts in measure_alike(machines, "canvas", verdicts)
     ]
 
 

@@ -15,6 +15,8 @@ from . import (
     canvas,
     codec,
     compare,
+    feature_tables,
+    features,
     frames,
     growth,
     growth_plot,
@@ -44,6 +46,9 @@ SCENES = RESULTS / "scenes.json"
 CODEC = RESULTS / "codec.json"
 QUICK_CORES = (*MAIN_CORES, "rv32imc")
 GROWTH = RESULTS / "growth.json"
+ALTERNATIVES = RESULTS / "accuracy_cost.json"
+FEATURES = RESULTS / "features.json"
+RECORD_FEATURES = "tests/bench/run --record-features"
 STATUS_SKIPPED = 77
 
 
@@ -64,7 +69,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--still", action="store_true", help="print what it saves to leave out what has not changed")
     what.add_argument("--helpers", action="store_true", help="print what quaternions, animations, picking ... cost")
     what.add_argument("--canvas", action="store_true", help="print what drawing in two dimensions costs")
+    what.add_argument("--features", action="store_true", help="print what each feature costs, used and not used")
+    what.add_argument("--record-features", action="store_true", help="measure that, write tests/bench/results")
     what.add_argument("--alternatives", action="store_true", help="print cost and error of the alternatives")
+    what.add_argument("--record-alternatives", action="store_true", help="measure those, write tests/bench/results")
     what.add_argument("--size", action="store_true", help="print bytes of code, check them against budgets and results")
     what.add_argument("--record-size", action="store_true", help="measure bytes of code, write tests/bench/results")
     what.add_argument("--codec", action="store_true", help="print the stream codec's bytes, cost and speed, check them")
@@ -116,6 +124,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
         print(still.table(still.measure(machines, verdicts)))
     if options.helpers:
         print(helpers.table(helpers.measure(machines, verdicts)))
+    if options.features or options.record_features or options.all:
+        _measure_features(machines, verdicts, record=not options.features)
     if options.workers:
         print(workers.table(workers.measure(machines)))
     if options.profile is not None:
@@ -130,13 +140,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
             _write_json(CODEC, {"sequences": codec.rows(streams)}, "tests/bench/run --record-codec")
     if options.quick or options.growth or options.record_growth or options.all:
         _grow(options, machines, verdicts)
-    if options.alternatives or options.all:
-        groups = compare.measure(machines, verdicts)
-        print(compare.table(groups))
-        if options.all:
-            _write_json(RESULTS / "accuracy_cost.json", {"groups": groups})
-            (RESULTS / "accuracy_cost.csv").write_text(compare.as_csv(groups), encoding="utf-8")
-            _plot(RESULTS / "accuracy_cost.json", RESULTS / "accuracy_cost.png")
+    if options.alternatives or options.record_alternatives or options.all:
+        _measure_alternatives(machines, verdicts, record=not options.alternatives)
 
 
 def _check(machines: Machines, verdicts: frames.Verdicts) -> None:
@@ -151,6 +156,7 @@ def _check(machines: Machines, verdicts: frames.Verdicts) -> None:
         total, was = (sum(sizes.values()) for sizes in (_code_of(machines, core), recorded["code"][core]))
         verdicts.compare(f"{CORES[core].title}: bytes of code with -O2", total, was, frames.RECORD)
     codec.compare_with_recorded(codec.encode(machines, verdicts), read_recorded(CODEC), verdicts)
+    features.check_quickly(machines, verdicts)
 
 
 def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
@@ -170,6 +176,26 @@ def _record_scenes(machines: Machines, verdicts: frames.Verdicts) -> None:
     _plot(SCENES, SCENES.with_suffix(".png"))
     for path in tables.DOCUMENTS:
         path.write_text(tables.embed(path.read_text(encoding="utf-8"), found, code), encoding="utf-8")
+
+
+def _measure_alternatives(machines: Machines, verdicts: frames.Verdicts, record: bool) -> None:
+    groups = compare.measure(machines, verdicts)
+    print(compare.table(groups))
+    if record:
+        _write_json(ALTERNATIVES, {"groups": groups}, "tests/bench/run --record-alternatives")
+        ALTERNATIVES.with_suffix(".csv").write_text(compare.as_csv(groups), encoding="utf-8")
+        _plot(ALTERNATIVES, ALTERNATIVES.with_suffix(".png"))
+
+
+def _measure_features(machines: Machines, verdicts: frames.Verdicts, record: bool) -> None:
+    found = features.measure(machines, verdicts)
+    text = feature_tables.document(found, RECORD_FEATURES)
+    print(text)
+    if record:
+        _write_json(FEATURES, found, RECORD_FEATURES)
+        FEATURES.with_suffix(".md").write_text(text, encoding="utf-8")
+        for path in tables.DOCUMENTS:
+            path.write_text(feature_tables.embed(path.read_text(encoding="utf-8"), found), encoding="utf-8")
 
 
 def _code_of(machines: Machines, core: str) -> dict[str, int]:
@@ -216,7 +242,7 @@ def _print_profile(machines: Machines, core: str, scene: str) -> None:
             print(f"  {count / 1e6:9.3f} M {count / total:6.1%}  {name}")
 
 
-def _write_json(path: Path, content: dict[str, Any], command: str = "tests/bench/run --all") -> None:
+def _write_json(path: Path, content: dict[str, Any], command: str) -> None:
     head = {"command": command, "compiler": compiler_version(), "qemu": qemu_version()}
     path.parent.mkdir(exist_ok=True)
     path.write_text(json.dumps({**head, **content}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from .machines import CORES, BenchError, Line, Machines, output_of
+from .machines import CORES, MAIN_CORES, BenchError, Line, Machines, output_of
 from .models import SCENES as MODEL_SCENES
 from .stages import REST, STAGES, Program, profile
 
@@ -159,6 +159,21 @@ def measure(machines: Machines, verdicts: Verdicts, cores: Sequence[str] = tuple
     if bits == 4:
         compare_with_simulator(machines, frames, verdicts)
     return frames
+
+
+def measure_alike(machines: Machines, program: str, verdicts: Verdicts) -> list[tuple[Line, dict[str, int]]]:
+    """A program's measurements on the main cores, each with its instructions by core. What is printed, pictures' CRCs
+    among it, must be the same on each of them and on this computer."""
+    native = [line for line in machines.native(program) if line.words[0] != "empty"]
+    counts: list[dict[str, int]] = [{} for _ in native]
+    for core in MAIN_CORES:
+        found = machines.target(core, program)
+        if len(found) != len(native):
+            raise BenchError(f"{program}: {core} measured {len(found)} times, this computer {len(native)}")
+        for here, there, count in zip(native, found, counts, strict=True):
+            verdicts.check(there.line == here, f"{program}: {core} says {there.line}, this computer {here}")
+            count[core] = there.instructions
+    return list(zip(native, counts, strict=True))
 
 
 def _frame(line: Line, native: Line, bits: int, counts: dict[str, int], splits: dict[str, dict[str, int]]) -> Frame:

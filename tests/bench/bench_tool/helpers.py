@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from .frames import Verdicts
-from .machines import MAIN_CORES, BenchError, Machines
+from .frames import Verdicts, measure_alike
+from .machines import MAIN_CORES, Machines
 
 
 def measure(machines: Machines, verdicts: Verdicts) -> dict[str, dict[str, int]]:
     """Of each helper, by core."""
-    native = [line for line in machines.native("helpers") if line.words[0] != "empty"]
-    counts: dict[str, dict[str, int]] = {line.words[0]: {} for line in native}
-    for core in MAIN_CORES:
-        found = machines.target(core, "helpers")
-        if len(found) != len(native):
-            raise BenchError(f"{core} measured {len(found)} helpers, this computer {len(native)}")
-        for here, there in zip(native, found, strict=True):
-            verdicts.check(there.line == here, f"{core} makes {there.line}, this computer {here}")
-            counts[here.words[0]][core] = there.instructions
-    return counts
+    return {line.words[0]: counts for line, counts in measure_alike(machines, "helpers", verdicts)}
 
 
 def table(counts: dict[str, dict[str, int]]) -> str:

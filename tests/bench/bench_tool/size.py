@@ -49,7 +49,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "flat-smallest": (*_MODES, *_FASTER),
 }
 
-_RENDERER = """#include "edgeline.h"
+PROGRAM = """#include "edgeline.h"
 el_renderer renderer;
 el_config config;
 el_camera camera;
@@ -157,32 +157,54 @@ def linked(map_file: Path) -> dict[str, int]:
 
 class Compiler:
     """Compiles and links into a folder of its own. Most options change few files; what they leave as it is after the
-    preprocessor is compiled once."""
+    preprocessor is compiled once. `flags`: of the core, and how far to optimise."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, flags: Sequence[str] = (f"-mcpu={CPU}", FLAGS)) -> None:
         self.folder = folder
-        self.command = ["arm-none-eabi-gcc", f"-mcpu={CPU}", "-mthumb", FLAGS]
+        self.command = ["arm-none-eabi-gcc", "-mthumb", *flags]
         self.command += ["-std=c11", "-ffreestanding", "-ffunction-sections", "-fdata-sections"]
+        self._known: dict[tuple[Path, tuple[str, ...]], Path] = {}
 
-    def link(self, name: str, program: str, layers: Iterable[str], left_out: Sequence[str] = ()) -> Size:
+    def link(
+        self,
+        name: str,
+        program: str,
+        layers: Iterable[str],
+        options: Mapping[str, int] | None = None,
+        calls: Iterable[str] = (),
+    ) -> Size:
+        """What the program takes of the layers. `options`: EL_WITH_, by their names in base/options.h; `calls`:
+        functions that it is to have besides."""
         folder = self.folder / name
         folder.mkdir()
         source = folder / "program.c"
         source.write_text(program, encoding="ascii")
-        flags = ["-I", str(SOURCES), *(f"-DEL_WITH_{option}=0" for option in left_out)]
-        files = [(file, f"{layer}-{file.stem}.o") for layer in layers for file in sorted((SOURCES / layer).glob("*.c"))]
-        objects = []
-        for file, target in [*files, (source, "program.o")]:
-            objects.append(folder / target)
-            objects[-1].symlink_to(self._compile(file, flags))
+        elf = folder / "program.elf"
         map_file = folder / "map"
-        linked = ["-nostartfiles", "--specs=nano.specs", "-Wl,--gc-sections", "-Wl,--entry=start"]
-        linked += [f"-Wl,-Map={map_file}", "-o", str(folder / "program.elf")]
-        output_of([*self.command, *linked, *objects])
+        linker = ["--specs=nano.specs", "-Wl,--entry=start", f"-Wl,-Map={map_file}"]
+        linker += [f"-Wl,--require-defined={function}" for function in calls]
+        self.program(elf, self.objects(layers, options) | {"program.o": self.compile(source, options)}, linker)
         return read_map(map_file.read_text(encoding="utf-8"))
 
-    def _compile(self, file: Path, flags: Sequence[str]) -> Path:
-        text = output_of([*self.command, *flags, "-E", "-P", file])
+    def objects(self, layers: Iterable[str], options: Mapping[str, int] | None = None) -> dict[str, Path]:
+        """The layers' files, compiled, by the names that read_map knows them by."""
+        files = [(layer, file) for layer in layers for file in sorted((SOURCES / layer).glob("*.c"))]
+        return {f"{layer}-{file.stem}.o": self.compile(file, options) for layer, file in files}
+
+    def program(self, elf: Path, objects: Mapping[str, Path], linker: Sequence[str]) -> None:
+        """Links objects, each by its name in the folder of `elf`."""
+        for name, compiled in objects.items():
+            (elf.parent / name).symlink_to(compiled)
+        names = [elf.parent / name for name in objects]
+        output_of([*self.command, "-nostartfiles", "-Wl,--gc-sections", *linker, "-o", elf, *names])
+
+    def compile(self, file: Path, options: Mapping[str, int] | None = None, include: Sequence[Path] = ()) -> Path:
+        """The file's object, which is not made again for what the preprocessor makes the same of."""
+        flags = [f"-DEL_WITH_{name}={value}" for name, value in (options or {}).items()]
+        flags += [f"-I{folder}" for folder in (SOURCES, *include)]
+        if (known := self._known.get((file, tuple(flags)))) is not None:
+            return known
+        text = output_of([*self.command, *flags, "-E", file])
         digest = hashlib.sha256(text.encode()).hexdigest()
         compiled = self.folder / f"{digest}.o"
         if not compiled.is_file():
@@ -192,6 +214,7 @@ class Compiler:
                 output_of([*self.command, "-c", preprocessed, "-o", made])
                 # Another thread may have been as fast, with the same result.
                 made.replace(compiled)
+        self._known[file, tuple(flags)] = compiled
         return compiled
 
 
@@ -200,7 +223,8 @@ def measure() -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         compiler = Compiler(Path(folder))
         options = {
-            name: pool.submit(compiler.link, name, _RENDERER, RENDERER, left_out) for name, left_out in OPTIONS.items()
+            name: pool.submit(compiler.link, name, PROGRAM, RENDERER, dict.fromkeys(left_out, 0))
+            for name, left_out in OPTIONS.items()
         }
         panels = {
             name: pool.submit(compiler.link, f"panel-{name}", text, ("base", "panel")) for name, text in PANELS.items()

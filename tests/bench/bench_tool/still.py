@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .frames import Verdicts
-from .machines import MAIN_CORES, BenchError, Machines
+from .frames import Verdicts, measure_alike
+from .machines import MAIN_CORES, Machines
 
 WIRE_BYTES_PER_S = 62.5e6 / 8
 """Of the Pico's SPI."""
@@ -23,23 +23,9 @@ class Still:
 
 def measure(machines: Machines, verdicts: Verdicts) -> list[Still]:
     """All scenes, on the main cores; what goes over the bus must be the same on each, and on this computer."""
-    native = [line for line in machines.native("still") if line.words[0] != "empty"]
-    counts: dict[str, list[int]] = {}
-    for core in MAIN_CORES:
-        found = machines.target(core, "still")
-        if len(found) != len(native):
-            raise BenchError(f"{core} drew {len(found)} frames, this computer {len(native)}")
-        counts[core] = [one.instructions for one in found]
-        for here, there in zip(native, found, strict=True):
-            verdicts.check(there.line == here, f"{core} sends {there.line}, this computer {here}")
     return [
-        Still(
-            line.words[0],
-            line.words[1].replace(",", ", "),
-            int(line.values["bytes"]),
-            {core: counts[core][index] for core in MAIN_CORES},
-        )
-        for index, line in enumerate(native)
+        Still(line.words[0], line.words[1].replace(",", ", "), int(line.values["bytes"]), counts)
+        for line, counts in measure_alike(machines, "still", verdicts)
     ]
 
 

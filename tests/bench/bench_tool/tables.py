@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from .frames import FIXED_PARTS, PEERS, TARGETS, Frame
 from .machines import CORES, MAIN_CORES, ROOT, BenchError
@@ -17,8 +17,9 @@ USUAL_UV = 3
 LARGE_ARENA = 130 * 1024
 
 
-def _markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    aligned = "|".join(["---", *["---:"] * (len(head) - 1)])
+def markdown(head: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1) -> str:
+    """A table, whose first columns are `words`, the others figures."""
+    aligned = "|".join(["---"] * words + ["---:"] * (len(head) - words))
     lines = [f"| {' | '.join(head)} |", f"|{aligned}|", *(f"| {' | '.join(row)} |" for row in rows)]
     return "\n".join(lines)
 
@@ -48,7 +49,7 @@ def instructions(frames: Sequence[Frame]) -> str:
         ]
         for frame in usual(frames)
     ]
-    return _markdown(head, rows)
+    return markdown(head, rows)
 
 
 def against_peers(frames: Sequence[Frame]) -> str:
@@ -66,7 +67,7 @@ def against_peers(frames: Sequence[Frame]) -> str:
                 [frame.scene, CORES[core].title, f"{count:.2f}", f"{peer:.2f} ({name})", f"x {count / peer:.2f}"]
             )
             rows[-1] += wanted
-    return _markdown(["scene", "core", "million", "best peer", "of it", "target", "of it"], rows)
+    return markdown(["scene", "core", "million", "best peer", "of it", "target", "of it"], rows)
 
 
 def by_stage(frames: Sequence[Frame]) -> str:
@@ -79,7 +80,7 @@ def by_stage(frames: Sequence[Frame]) -> str:
             if core in frame.stages:
                 parts = frame.stages[core]
                 rows.append([frame.scene, CORES[core].title, *(_millions(parts[stage]) for stage in STAGES)])
-    return _markdown(["scene", "core", *STAGES], rows)
+    return markdown(["scene", "core", *STAGES], rows)
 
 
 def memory(frames: Sequence[Frame]) -> str:
@@ -96,7 +97,7 @@ def memory(frames: Sequence[Frame]) -> str:
         for frame in usual(frames)
         if frame.number == 0
     ]
-    return _markdown(["scene", "arena", *parts, "in all"], rows)
+    return markdown(["scene", "arena", *parts, "in all"], rows)
 
 
 def exactness(frames: Sequence[Frame]) -> str:
@@ -111,7 +112,7 @@ def exactness(frames: Sequence[Frame]) -> str:
         ]
         for frame in chosen
     ]
-    return _markdown(head, rows)
+    return markdown(head, rows)
 
 
 def code(sizes: Mapping[str, Mapping[str, int]]) -> str:
@@ -125,7 +126,7 @@ def code(sizes: Mapping[str, Mapping[str, int]]) -> str:
         ]
         for core, found in sizes.items()
     ]
-    return _markdown(["core", *layers, "in all"], rows)
+    return markdown(["core", *layers, "in all"], rows)
 
 
 def document(frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]], command: str) -> str:
@@ -134,9 +135,9 @@ def document(frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, int]], co
         "# What frames cost",
         f"Made by `{command}`; do not edit. Scenes of 320x240 in bands of 8 lines; million executed instructions, "
         "exact, in QEMU, of code that is compiled with -O2 for each core (a Cortex-M0+'s runs on an emulated "
-        "Cortex-M3). `-again` is the second of two equal frames; `-4x` and `-8x` have so many samples per pixel, `-hud` "
-        "a HUD over them; `layers` and `sheets` are ten layers over the whole screen, flat and textured; models are "
-        "those of shared/models.",
+        "Cortex-M3). `-again` is the second of two equal frames; `-4x` and `-8x` have so many samples per pixel, "
+        "`-hud` a HUD over them; `layers` and `sheets` are ten layers over the whole screen, flat and textured; models "
+        "are those of shared/models.",
         instructions(frames),
         "## Standard scenes, the best peers, and what is to be reached",
         against_peers(frames),
@@ -167,10 +168,15 @@ def embed(text: str, frames: Sequence[Frame], sizes: Mapping[str, Mapping[str, i
         "exactness": lambda: exactness(frames),
         "code": lambda: code(sizes),
     }
+    return put_between(text, "bench", tables)
+
+
+def put_between(text: str, mark: str, tables: Mapping[str, Callable[[], str]]) -> str:
+    """A document with the tables between its lines "<!-- MARK: NAME -->" and "<!-- MARK end -->"."""
 
     def table(found: re.Match[str]) -> str:
         if found[1] not in tables:
             raise BenchError(f"a document asks for the table '{found[1]}'; there are {', '.join(tables)}")
-        return f"<!-- bench: {found[1]} -->\n{tables[found[1]]()}\n<!-- bench end -->"
+        return f"<!-- {mark}: {found[1]} -->\n{tables[found[1]]()}\n<!-- {mark} end -->"
 
-    return re.sub(r"<!-- bench: (\S+) -->\n.*?<!-- bench end -->", table, text, flags=re.DOTALL)
+    return re.sub(rf"<!-- {mark}: (\S+) -->\n.*?<!-- {mark} end -->", table, text, flags=re.DOTALL)

@@ -1,0 +1,218 @@
+/* What using a feature takes: a scene, and the same again with one thing more (bench_tool/features.py).
+ *
+ * One line per measurement: the scene without it, and of how many of which units is told what one more takes.
+ *
+ *     NAME PLAIN UNIT crc CRC count UNITS
+ */
+#include "bench/bench_scenes.h"
+#include "bench/meshes/s1.h"
+#include "bench/meshes/s2.h"
+#include "bench/meshes/s3.h"
+#include "demo/demo_scenes.h"
+#include "demo/meshes/teapot.h"
+#include "frame.h"
+#include "own_scenes.h"
+#include "platform.h"
+
+enum { BAND_LINES = 8, ARENA = 200 * 1024, LAMPS = 16 };
+
+/* What a use adds to its scene's material, or to the frame. */
+typedef enum extra {
+    NOTHING,
+    DITHER,
+    BLEND,
+    FOG,
+    SAMPLES_4,
+    SAMPLES_8,
+    PREPASS,
+    HUD,
+    COLOURS,
+    IMAGE,
+    MIRROR,
+    SMOOTH,
+    LIGHT,
+    ONE_LAMP,
+    ALL_LAMPS
+} extra;
+
+typedef struct use {
+    const char *name, *plain, *unit;
+    const el_scene *scene; /* whose camera it is */
+    const el_mesh *mesh;
+    uint8_t shading;
+    extra what;
+} use;
+
+#define S1(name, what)                                                                                                 \
+    {                                                                                                                  \
+        name, "S1", "pixel", &el_bench_scenes[0], &s1, EL_SHADE_GOURAUD, what                                          \
+    }
+#define S2(name, what)                                                                                                 \
+    {                                                                                                                  \
+        name, "S2", "pixel", &el_bench_scenes[0], &s2, EL_SHADE_TEXTURED, what                                         \
+    }
+#define S3(name, what)                                                                                                 \
+    {                                                                                                                  \
+        name, "S3", "pixel", &el_bench_scenes[0], &s3, EL_SHADE_FLAT, what                                             \
+    }
+#define TEAPOT(name, what)                                                                                             \
+    {                                                                                                                  \
+        name, "teapot", "vertex", &el_teapot_scene, &teapot, EL_SHADE_GOURAUD, what                                    \
+    }
+
+static const use uses[] = {
+    S1("S1", NOTHING),
+    S1("S1-dithered", DITHER),
+    S1("S1-blended", BLEND),
+    S1("S1-fog", FOG),
+    S1("S1-4-samples", SAMPLES_4),
+    S1("S1-8-samples", SAMPLES_8),
+    S1("S1-pre-pass", PREPASS),
+    {"S1-hud", "S1", "frame", &el_bench_scenes[0], &s1, EL_SHADE_GOURAUD, HUD},
+    S2("S2", NOTHING),
+    S2("S2-in-a-colour", COLOURS),
+    S2("S2-pre-pass", PREPASS),
+    S2("S2-blended", BLEND),
+    S2("S2-fog", FOG),
+    S2("S2-image", IMAGE),
+    S2("S2-mirrored", MIRROR),
+    S2("S2-bilinear", SMOOTH),
+    S3("S3", NOTHING),
+    S3("S3-blended", BLEND),
+    S3("S3-fog", FOG),
+    S3("S3-4-samples", SAMPLES_4),
+    TEAPOT("teapot", NOTHING),
+    TEAPOT("teapot-light", LIGHT),
+    TEAPOT("teapot-1-lamp", ONE_LAMP),
+    TEAPOT("teapot-16-lamps", ALL_LAMPS),
+};
+
+static _Alignas(8) uint8_t arena[ARENA];
+static el_camera camera;
+static el_texture texture;
+static el_image image;
+static el_fog fog;
+static el_lamp lamps[LAMPS];
+static uint8_t colours[sizeof teapot_positions / sizeof teapot_positions[0]][3];
+static el_mesh lit;
+
+static const el_light light = {.direction_q30 = {-520841137, 781261706, 520841137}, .ambient = 80, .diffuse = 175};
+
+static el_material material_of(const use *u)
+{
+    el_material material = {.shading = u->shading, .colour = {226, 146, 74}};
+    if (u->mesh == &s2) {
+        material.texture = &texture;
+    }
+    switch (u->what) {
+    case DITHER:
+        material.flags = EL_MATERIAL_DITHER;
+        break;
+    case BLEND:
+        material.alpha = 128;
+        break;
+    case FOG:
+        material.fog = &fog;
+        break;
+    case COLOURS:
+        material.shading = EL_SHADE_TEXTURED_GOURAUD;
+        break;
+    case LIGHT:
+        material.light = &light;
+        break;
+    default:
+        break;
+    }
+    return material;
+}
+
+/* What is there before the frame begins. */
+static void prepare(const use *u)
+{
+    u->scene->place_camera(0, &camera);
+    (void)el_fog_linear(&fog, &camera, 0xBDF7, 4 * EL_UNIT_Q16, 32 * EL_UNIT_Q16);
+    texture = s2_texture;
+    image = (el_image){.width = (uint16_t)(1U << s2_texture.width_log2),
+                       .height = (uint16_t)(1U << s2_texture.height_log2),
+                       .pixels = s2_texture.texels};
+    texture.image = u->what == IMAGE ? &image : NULL;
+    texture.wrap_u = u->what == MIRROR ? EL_WRAP_MIRROR : EL_WRAP_REPEAT;
+    texture.wrap_v = texture.wrap_u;
+    texture.smooth = u->what == SMOOTH;
+    for (int32_t i = 0; i < LAMPS; i++) {
+        lamps[i] =
+            (el_lamp){.kind = EL_LAMP_POINT,
+                      .colour = {40, 60, 80},
+                      .position_q16 = {(i % 4 - 2) * 2 * EL_UNIT_Q16, 3 * EL_UNIT_Q16, (i / 4 - 1) * 2 * EL_UNIT_Q16},
+                      .half_q16 = 3 * EL_UNIT_Q16};
+    }
+    lit = *u->mesh;
+}
+
+static const use *in_use;
+
+static el_status draw(uint32_t frame, el_renderer *renderer)
+{
+    static el_material material;
+    const el_pose pose = el_pose_identity();
+    (void)frame;
+    material = material_of(in_use);
+    if (in_use->what == ONE_LAMP || in_use->what == ALL_LAMPS) {
+        const el_lighting lighting = {.lamps = lamps,
+                                      .lamp_count = in_use->what == ONE_LAMP ? 1 : LAMPS,
+                                      .shininess_log2 = 4,
+                                      .ambient = {40, 40, 40},
+                                      .specular = {120, 120, 120},
+                                      .colour = {226, 146, 74}};
+        const el_status status = el_light_vertices(&lighting, &teapot, &pose, camera.position_q16, colours);
+        if (status != EL_OK) {
+            return status;
+        }
+        lit.colours = (const uint8_t(*)[3])colours;
+    }
+    return el_draw(renderer, &lit, &pose, &material);
+}
+
+static int measure(const use *u)
+{
+    static el_renderer renderer;
+    static uint32_t plain_pixels;
+    const el_scene scene = {u->name, "", 0, u->scene->place_camera, draw, NULL};
+    const bench_setting setting = {
+        .band_lines = BAND_LINES,
+        .depth_prepass = u->what == PREPASS,
+        .samples = u->what == SAMPLES_4   ? 4
+                   : u->what == SAMPLES_8 ? 8
+                                          : 1,
+        .over = u->what == HUD ? &bench_hud : NULL,
+        .arena = arena,
+        .arena_bytes = sizeof arena,
+    };
+    bench_picture picture;
+    in_use = u;
+    prepare(u);
+    const el_status status = bench_frame(&scene, 0, &setting, &renderer, &picture);
+    if (u->what == NOTHING) {
+        plain_pixels = el_frame_stats(&renderer)->pixels;
+    }
+    bench_print(u->name);
+    bench_print(" ");
+    bench_print(u->plain);
+    bench_print(" ");
+    bench_print(u->unit);
+    bench_print(" crc ");
+    bench_print_hex(picture.crc);
+    bench_print_item(" count ", u->unit[0] == 'p' ? plain_pixels : u->unit[0] == 'v' ? u->mesh->vertex_count : 1);
+    bench_print("\n");
+    return status == EL_OK ? 0 : 1;
+}
+
+int bench_main(void)
+{
+    int failed = 0;
+    bench_empty();
+    for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
+        failed |= measure(&uses[i]);
+    }
+    return failed;
+}
