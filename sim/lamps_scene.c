@@ -126,8 +126,10 @@ static const el_lamp lamps[LAMPS] = {
 };
 static const uint8_t lamps_of[COLUMNS] = {SUN, BULB, TORCH, SUN | BULB, SUN, SUN | BULB | TORCH};
 
+static el_highlight highlight;
+
 #define OWN .colour = {220, 200, 190}, .ambient = {20, 20, 28}
-#define SHINY .shininess_log2 = 5, .specular = {220, 220, 220}
+#define SHINY .highlight = &highlight, .specular = {220, 220, 220}
 
 static const el_lighting lightings[COLUMNS] = {
     {OWN}, {OWN}, {OWN}, {SHINY}, {OWN, .emissive = {0, 90, 30}}, {OWN, SHINY},
@@ -263,7 +265,10 @@ static el_status draw_in_haze(uint32_t frame, el_renderer *renderer)
 static el_status draw(uint32_t frame, el_renderer *renderer)
 {
     make();
-    el_status status = draw_in_light(frame, renderer);
+    el_status status = el_highlight_make(&highlight, 32);
+    if (status == EL_OK) {
+        status = draw_in_light(frame, renderer);
+    }
     if (status == EL_OK) {
         status = draw_in_lamps(frame, renderer);
     }

@@ -202,7 +202,7 @@ lights=geometry/lights.c fog=raster/fog.c mixed=raster/fill_mixed_line.c texels=
 look test_lights "spots have a sharp border" $lights "(3U << 16) - 2U * t" "(1U << 16)"
 look test_lights "a lamp behind the surface lights it" $lights "cosine <= 0 || arrives" "arrives"
 look test_lights "light does not fade with distance" $lights "sum == 0 ?" "sum != 1 ?"
-look test_lights "highlights as wide as they come" $lights "i < shininess_log2" "i + 1U < shininess_log2"
+look test_lights "highlights as of half the exponent" $lights "for (; exponent > 0; exponent >>= 1)" "for (exponent >>= 1; exponent > 0; exponent >>= 1)"
 look test_lights "both sides are the front" $lights "if (l->two_sided &&" "if (false && l->two_sided &&"
 look test_lights "nothing glows by itself" $lights "(uint32_t)l->emissive[i] << 8" "(uint32_t)l->emissive[i] << 0"
 look test_fog "fog by the nearest entry" raster/fog.h "(fall * in_step >> step_log2)" "(fall * 0U * in_step)" $fog
