@@ -50,7 +50,7 @@ def test_golden(simulator: Simulator, reports: Path, scene: str, samples: int) -
 @pytest.mark.parametrize(("scene", "order"), [("S1", "rgb"), ("solid", "bgr")])
 def test_golden_stripes(simulator: Simulator, reports: Path, scene: str, order: str) -> None:
     picture = simulator.render("--scene", scene, f"--stripes={order}").colour[0]
-    expect_golden(rgb_picture(picture), f"{scene}-{order}-stripes", reports)
+    expect_golden(rgb_of(picture), f"{scene}-{order}-stripes", reports)
 
 
 def test_orders_of_stripes_differ_in_the_outer_two(simulator: Simulator) -> None:
