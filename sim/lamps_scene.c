@@ -126,9 +126,8 @@ static const el_lamp lamps[LAMPS] = {
 };
 static const uint8_t lamps_of[COLUMNS] = {SUN, BULB, TORCH, SUN | BULB, SUN, SUN | BULB | TORCH};
 
-static el_highlight highlight;
-
 #define OWN .colour = {220, 200, 190}, .ambient = {20, 20, 28}
+static el_highlight highlight;
 #define SHINY .highlight = &highlight, .specular = {220, 220, 220}
 
 static const el_lighting lightings[COLUMNS] = {

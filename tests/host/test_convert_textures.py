@@ -295,7 +295,7 @@ def test_materials_of_gltf_in_the_header(tmp_path: Path, capsys: pytest.CaptureF
     assert ".flags" not in text and ".alpha" not in text and ".image" not in text and ".wrap" not in text
 
 
-def test_materials_of_mtl(tmp_path: Path) -> None:
+def test_materials_of_mtl(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     alpha = np.full((SIDE, SIDE), 200, np.uint8)
     Image.fromarray(np.dstack([smooth_picture(), alpha])).save(tmp_path / "image.png")
     square(tmp_path, (0, 2), "d 0.25\nmap_Kd -clamp on image.png\nmap_d image.png")
@@ -303,9 +303,13 @@ def test_materials_of_mtl(tmp_path: Path) -> None:
     assert texture.wrap == (Wrap.CLAMP, Wrap.CLAMP)
     assert texture.alpha is not None and set(texture.alpha.reshape(-1).tolist()) == {200}
     assert elm.decode_all(output.read_bytes())[2].opacity == 64
-    square(tmp_path, (0, 2), "Tr 0.25\nmap_Kd image.png")
+    capsys.readouterr()
+    square(tmp_path, (0, 2), "Tr 0.25\nmap_Kd image.png\nmap_d holes.png")
     output, texture = converted(tmp_path / "m.obj")
-    assert texture.is_plain is False or texture.alpha is None
+    assert texture.is_plain
+    assert (
+        "note: paint: map_d is left out; what is clear has to be the alpha of map_Kd's own" in capsys.readouterr().out
+    )
     assert elm.decode_all(output.read_bytes())[2].opacity == 191
 
 

@@ -21,7 +21,17 @@ static inline unsigned el_config_samples(const el_config *config)
 #endif
 }
 
-/* Those of the frame: a view of what is drawn has one. */
+static inline bool el_config_has_stripes(const el_config *config)
+{
+#if EL_WITH_STRIPES
+    return config->stripes != EL_STRIPES_NONE;
+#else
+    (void)config;
+    return false;
+#endif
+}
+
+/* Samples per pixel of the frame: a view of what is drawn has one. */
 static inline unsigned el_renderer_samples(const el_renderer *renderer)
 {
     const unsigned samples = el_config_samples(&renderer->config);

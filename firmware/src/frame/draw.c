@@ -369,7 +369,8 @@ static bool can_draw_wires(const el_renderer *renderer, const el_material *mater
         return false;
     }
 #endif
-    return material->shading == EL_SHADE_FLAT && (!EL_WITH_SAMPLES || renderer->list.reach == 0);
+    return material->shading == EL_SHADE_FLAT && (!EL_WITH_SAMPLES || renderer->list.reach == 0) &&
+           !el_config_has_stripes(&renderer->config);
 }
 #endif
 

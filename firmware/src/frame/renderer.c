@@ -22,16 +22,6 @@ static bool samples_are_valid(const el_config *config)
 }
 #endif
 
-static inline bool has_stripes(const el_config *config)
-{
-#if EL_WITH_STRIPES
-    return config->stripes != EL_STRIPES_NONE;
-#else
-    (void)config;
-    return false;
-#endif
-}
-
 static inline uint16_t bands_of(uint32_t lines, uint32_t band_lines)
 {
     return (uint16_t)((lines + band_lines - 1U) / band_lines);
@@ -40,7 +30,7 @@ static inline uint16_t bands_of(uint32_t lines, uint32_t band_lines)
 #if EL_WITH_INTERLACED
 static el_status check_interlacing(const el_config *config)
 {
-    if (config->height == 1 || el_config_samples(config) > 1 || has_stripes(config) || config->reuse != 0 ||
+    if (config->height == 1 || el_config_samples(config) > 1 || el_config_has_stripes(config) || config->reuse != 0 ||
         config->depth_prepass || config->view != EL_DEBUG_PICTURE || config->shading_off != 0 ||
         (config->workers != NULL && config->workers->count > 1)) {
         return EL_ERROR_SIZE;
@@ -67,7 +57,7 @@ static void begin_field(el_renderer *renderer)
 static uint16_t width_shown(const el_renderer *renderer)
 {
     const uint16_t width = renderer->config.width;
-    return has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
+    return el_config_has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
 }
 
 el_status el_init(el_renderer *renderer, const el_config *config)
@@ -96,7 +86,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
         return EL_ERROR_SIZE;
     }
 #endif
-    const uint32_t width = has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
+    const uint32_t width = el_config_has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
     const uint32_t lines = config->band_lines;
     if (config->workers != NULL &&
         (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
@@ -111,7 +101,9 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     }
     memset(renderer, 0, sizeof *renderer);
     renderer->config = *config;
+#if EL_WITH_STRIPES
     renderer->config.width = (uint16_t)width;
+#endif
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
 #if EL_WITH_INTERLACED
     renderer->lines = config->height;
@@ -149,7 +141,7 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     for (unsigned i = 0; i < 2 * workers; i++) {
         el_painter *const painter = el_renderer_painter(renderer, i / 2);
         el_band *const band = &painter->bands[i % 2];
-        band->width = (uint16_t)width;
+        band->width = renderer->config.width;
         band->pixels = (uint16_t *)(void *)(memory + i * colour_bytes);
         painter->depth[i % 2] = (uint16_t *)(void *)(workers > 1 ? depth + i * one_depth : depth);
         band->depth = painter->depth[i % 2];
@@ -182,13 +174,12 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     if (renderer == NULL || camera == NULL || renderer->in_frame) {
         return EL_ERROR_ARGUMENT;
     }
-    const uint16_t width = width_shown(renderer);
-    const el_status status = el_view_make(&renderer->view, camera, width, renderer->config.height);
+    const el_status status = el_view_make(&renderer->view, camera, width_shown(renderer), renderer->config.height);
     if (status != EL_OK) {
         return status;
     }
 #if EL_WITH_STRIPES
-    if (has_stripes(&renderer->config)) {
+    if (el_config_has_stripes(&renderer->config)) {
         el_view_cut_pixels(&renderer->view, EL_STRIPES_PER_PIXEL);
     }
 #endif
@@ -207,7 +198,7 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera)
     for (unsigned i = 0; i < EL_MAX_SINKS; i++) {
         const el_sink *const sink = renderer->config.sinks[i];
         if (sink != NULL) {
-            sink->begin(sink->context, width, renderer->config.height);
+            sink->begin(sink->context, width_shown(renderer), renderer->config.height);
         }
     }
     return EL_OK;

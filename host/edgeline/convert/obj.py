@@ -53,14 +53,19 @@ class ObjModel:
 @dataclass
 class Material:
     """`colour` is Kd, `opacity` d, 0 to 1; `image` the file name of map_Kd; `line` where that stands; `clamps`: its
-    option -clamp on; `has_alpha`: map_d names the same file, whose alpha is how much of it shows."""
+    option -clamp on; `clear_image` the file name of map_d."""
 
     colour: tuple[float, float, float] | None = None
     opacity: float = 1.0
     image: str | None = None
     line: int = 0
     clamps: bool = False
-    has_alpha: bool = False
+    clear_image: str | None = None
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the image's own alpha is how much of it shows."""
+        return self.image is not None and self.clear_image == self.image
 
 
 def statements(name: str, data: bytes) -> Iterator[tuple[int, list[str], str]]:
@@ -203,7 +208,6 @@ def map_file(words: list[str], rest: str) -> str:
 def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
     """The materials in `data` by their names. Raises EdgelineError with file and line."""
     materials: dict[str, Material] = {}
-    clear: dict[int, str] = {}
     current = Material()
     for line, words, rest in statements(name, data):
         if words[0] == "newmtl":
@@ -219,7 +223,5 @@ def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
             current.image, current.line = map_file(words, rest), line
             current.clamps = "-clamp on" in " ".join(words).lower()
         elif words[0] == "map_d" and rest:
-            clear[id(current)] = map_file(words, rest)
-    for material in materials.values():
-        material.has_alpha = material.image is not None and clear.get(id(material)) == material.image
+            current.clear_image = map_file(words, rest)
     return materials

@@ -13,22 +13,39 @@ from pathlib import Path
 
 import numpy as np
 
-from edgeline.convert import atlas, elm
+from edgeline.convert import elm
+from edgeline.convert.atlas import with_atlases
 from edgeline.convert.clusters import with_clusters
 from edgeline.convert.gltf import parse_gltf
-from edgeline.convert.header import Look, NamedMesh, is_name_of_part, name_from
+from edgeline.convert.header import NamedMesh, is_name_of_part, name_from
 from edgeline.convert.locality import per_triangle
-from edgeline.convert.mesh import MAX_TRIANGLES, check_triangle_count, has_area, quantise, scale_log2_for
+from edgeline.convert.materials import (
+    as_asked,
+    in_drawing_order,
+    load_pictures,
+    look_of,
+    notes_of,
+    style_of,
+    with_texture,
+)
+from edgeline.convert.mesh import (
+    MAX_TRIANGLES,
+    Quantised,
+    check_triangle_count,
+    has_area,
+    quantise,
+    scale_log2_for,
+)
 from edgeline.convert.model import source_from
 from edgeline.convert.obj import Material, ObjModel, parse_mtl, parse_obj
 from edgeline.convert.options import DEFAULT_CREASE, DEFAULT_TEXTURE_SIZE
 from edgeline.convert.ply import parse_ply
 from edgeline.convert.progress import Steps
 from edgeline.convert.simplify import Simplified, simplified
-from edgeline.convert.source import Part, Picture, Source, fitted_wrap, placed, soup_of, with_normals
+from edgeline.convert.source import Picture, Source, placed, soup_of, with_normals
 from edgeline.convert.stl import parse_stl
-from edgeline.convert.texels import MAX_TEXTURE_LOG2, Format, Texture, Wrap
-from edgeline.convert.texture import Alpha, ColourError, Pixels, Style, colour_error, textured
+from edgeline.convert.texels import Wrap
+from edgeline.convert.texture import Alpha, ColourError, Pixels, Style
 from edgeline.errors import EdgelineError
 
 
@@ -66,6 +83,9 @@ def read_materials(path: Path, model: ObjModel, notes: list[str]) -> tuple[dict[
             continue
         found = parse_mtl(library.name, read_bytes(library))
         materials |= found
+        for material, made in found.items():
+            if made.clear_image is not None and not made.has_alpha:
+                notes.append(f"{material}: map_d is left out; what is clear has to be the alpha of map_Kd's own image")
         library_of |= dict.fromkeys(found, library.name)
     return materials, library_of
 
@@ -125,132 +145,74 @@ def part_names(source: Source, name: str) -> list[str]:
     return [f"{one}_{i}" if any(is_name_of_part(one, other) for other in names) else one for i, one in enumerate(names)]
 
 
-def style_of(args: argparse.Namespace) -> Style:
-    """What the command line says of textures; `with_texture` adds what the model does."""
-    texture_format = next(one for one in Format if one.option == (args.texture_format or Format.RGB565.option))
-    most = atlas.LEVELS if args.atlas else MAX_TEXTURE_LOG2 + 1
-    return Style(texture_format, args.dither or "none", most if args.mipmaps else 1, smooth=args.filter == "bilinear")
+def reduced(source: Source, args: argparse.Namespace, steps: Steps) -> tuple[Source, Simplified | None]:
+    """`source` with as few triangles as were asked for. Raises EdgelineError for more than meshes hold."""
+    if args.triangles is not None or args.tolerance is not None:
+        fewer = simplified(source, args.triangles, args.tolerance, steps)
+        return fewer.source, fewer
+    if len(source.positions) > 2 * len(source.parts) * MAX_TRIANGLES:
+        check_triangle_count(len(source.positions))  # before any work is done on them
+    return source, None
 
 
-def with_alpha_of(source: Source, args: argparse.Namespace) -> Source:
-    """`source` with the alpha, borders and filter that were asked for in place of the model's."""
-
-    def changed(picture: Picture) -> Picture:
-        alpha = picture.alpha if args.alpha in (None, "file") else Alpha(args.alpha)
-        if alpha == Alpha.BLEND and args.texture_format == Format.MASK.option:
-            alpha = Alpha.TEST
-        wrap = picture.wrap if args.wrap in (None, "file") else (Wrap[args.wrap.upper()],) * 2
-        smooth = picture.smooth if args.filter == "file" else args.filter == "bilinear"
-        return replace(picture, alpha=alpha, wrap=wrap, smooth=smooth)
-
-    parts = (p if p.picture is None else replace(p, picture=changed(p.picture)) for p in source.parts)
-    return replace(source, parts=tuple(parts))
-
-
-def look_of(part: Part) -> Look:
-    return Look(part.two_sided, part.opacity)
-
-
-def is_blended(part: Part) -> bool:
-    return part.opacity < 255 or (part.picture is not None and part.picture.alpha == Alpha.BLEND)
-
-
-def in_drawing_order(source: Source, names: list[str]) -> list[tuple[int, str]]:
-    """The parts' numbers and names: those that are blended last, as they are to be drawn."""
-    return sorted(enumerate(names), key=lambda one: is_blended(source.parts[one[0]]))
-
-
-def with_texture(
-    source: Source, part: Part, pixels: Pixels | None, style: Style
-) -> tuple[Source, Texture | None, ColourError | None]:
-    """The triangles of a part, the texture made of its picture, and how far that is from it."""
-    if pixels is None or part.picture is None:
-        return source, None, None
-    picture = part.picture
-    style = replace(style, smooth=picture.smooth, alpha=picture.alpha, cutoff=picture.cutoff)
-    if not part.is_atlas:
-        height, width = pixels.rgb.shape[:2]
-        source, wrap = fitted_wrap(source, replace(style, wrap=picture.wrap), (width, height))
-        style = replace(style, wrap=wrap)
-    texture = textured(pixels, style)
-    return source, texture, colour_error(pixels, texture)
-
-
-def notes_of(source: Source, pixels: list[Pixels | None], args: argparse.Namespace) -> list[str]:
-    notes = []
-    for part, image in zip(source.parts, pixels, strict=True):
-        name = part.name or "the model"
-        if is_blended(part):
-            notes.append(f"{name}: it is blended; draw it after all that is opaque")
-        elif image is not None and image.is_clear and args.alpha is None and image.alpha is None:
-            notes.append(f"{name}: its image has clear places, which are drawn; give --alpha test or --alpha blend")
-    return notes
+def meshes_of(
+    source: Source, pixels: list[Pixels | None], style: Style, names: list[str], steps: Steps, *, clustered: bool
+) -> Result:
+    """A mesh of each part that has an area, named so; those that are blended last. Raises EdgelineError."""
+    scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
+    named: list[NamedMesh] = []
+    found: list[Quantised] = []
+    errors: list[ColourError | None] = []
+    dropped = 0
+    with steps.bar("meshes", len(source.parts)) as done:
+        for i, part_name in in_drawing_order(source, names):
+            rows = source.part_of == i
+            done(1)
+            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
+                dropped += int(rows.sum())
+                continue
+            part = source.parts[i]
+            chosen, texture, colours = with_texture(source.chosen(rows), part, pixels[i], style)
+            found.append(quantise(soup_of(chosen, texture), scale_log2))
+            errors.append(colours)
+            mesh = with_clusters(found[-1].mesh, per_triangle) if clustered else found[-1].mesh
+            named.append(NamedMesh(part_name, mesh, texture, material=look_of(part)))
+    counts = [len(one.mesh.triangles) for one in found]
+    total = sum(counts)
+    check_triangle_count(min(total, 1))
+    before = sum(per_triangle(one.mesh) * count for one, count in zip(found, counts, strict=True)) / total
+    squares = sum(one.position_rms**2 * count for one, count in zip(found, counts, strict=True)) / total
+    return Result(
+        named,
+        max(one.position_error for one in found),
+        math.sqrt(squares),
+        dropped + sum(one.dropped_triangles for one in found),
+        transforms_before=before if any(one.mesh.clusters is not None for one in named) else None,
+        colour_errors=tuple(errors),
+    )
 
 
 def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
     """The meshes of the model that `args` name, the first of them called `name`. Raises EdgelineError."""
     if args.model.suffix.lower() == ".elm":
         return convert_elm(args.model, name)
-    source = with_alpha_of(coloured(read_source(args.model), args), args)
-    size = args.texture_size or DEFAULT_TEXTURE_SIZE
+    source = as_asked(coloured(read_source(args.model), args), args)
     style = style_of(args)
-    with_alpha = style.format == Format.MASK
-    pixels: list[Pixels | None] = []
-    with steps.bar("images", len(source.parts)) as done:
-        for part in source.parts:
-            picture = part.picture
-            load_alpha = picture is not None and (with_alpha or picture.alpha != Alpha.NONE)
-            pixels.append(None if picture is None else picture.load(size, load_alpha))
-            done(1)
+    pixels = load_pictures(source, style, args.texture_size or DEFAULT_TEXTURE_SIZE, steps)
     source = placed(source, args.up or "y", args.scale or 1.0, args.centre)
-    fewer = None
-    if args.triangles is not None or args.tolerance is not None:
-        fewer = simplified(source, args.triangles, args.tolerance, steps)
-        source = fewer.source
-    elif len(source.positions) > 2 * len(source.parts) * MAX_TRIANGLES:
-        check_triangle_count(len(source.positions))  # before any work is done on them
+    source, fewer = reduced(source, args, steps)
     if args.atlas:
-        source, pixels = atlas.with_atlases(source, pixels, style.levels)
+        source, pixels = with_atlases(source, pixels, style.levels)
     if args.no_normals:
         source = replace(source, normals=None)
     else:
         source = with_normals(source, DEFAULT_CREASE if args.crease is None else args.crease)
     try:
-        scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
-        named, error, squares, dropped, before = [], 0.0, 0.0, 0, 0.0
-        errors: list[ColourError | None] = []
-        with steps.bar("meshes", len(source.parts)) as done:
-            for i, part_name in in_drawing_order(source, part_names(source, name)):
-                rows = source.part_of == i
-                done(1)
-                if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
-                    dropped += int(rows.sum())
-                    continue
-                chosen, texture, colours = with_texture(source.chosen(rows), source.parts[i], pixels[i], style)
-                found = quantise(soup_of(chosen, texture), scale_log2)
-                mesh = found.mesh if args.no_clusters else with_clusters(found.mesh, per_triangle)
-                named.append(NamedMesh(part_name, mesh, texture, material=look_of(source.parts[i])))
-                errors.append(colours)
-                before += per_triangle(found.mesh) * len(mesh.triangles)
-                squares += found.position_rms**2 * len(mesh.triangles)
-                error, dropped = max(error, found.position_error), dropped + found.dropped_triangles
-        if not named:
-            check_triangle_count(0)
+        result = meshes_of(source, pixels, style, part_names(source, name), steps, clustered=not args.no_clusters)
     except EdgelineError as problem:
         text = str(problem)
         raise problem if text.startswith(source.name) else EdgelineError(f"{source.name}: {text}") from problem
-    total = sum(len(one.mesh.triangles) for one in named)
-    reordered = any(one.mesh.clusters is not None for one in named)
-    return Result(
-        named,
-        error,
-        math.sqrt(squares / total),
-        dropped,
-        (*source.notes, *notes_of(source, pixels, args)),
-        fewer,
-        before / total if reordered else None,
-        tuple(errors),
-    )
+    return replace(result, notes=(*source.notes, *notes_of(source, pixels, args)), simplified=fewer)
 
 
 def convert_elm(path: Path, name: str) -> Result:
