@@ -54,8 +54,8 @@ static el_status draw_keys(uint32_t frame, el_renderer *renderer)
         turns[i] = el_quaternion_about(about, i * EL_DEGREES(80, 1));
     }
     el_status status = EL_OK;
-    for (uint8_t between = EL_BETWEEN_STEP; between <= EL_BETWEEN_SMOOTH; between++) {
-        const el_key_times keys = {times_ms, KEYS, between};
+    for (int32_t between = EL_BETWEEN_STEP; between <= EL_BETWEEN_SMOOTH; between++) {
+        const el_key_times keys = {times_ms, KEYS, (uint8_t)between};
         const el_animation animation = {.position = {keys, places_q16},
                                         .rotation = {keys, turns},
                                         .scale = {keys, scales_q16},
@@ -87,7 +87,7 @@ static el_status draw_hierarchy(uint32_t frame, el_renderer *renderer)
     for (int32_t arm = 0; arm < ARMS; arm++) {
         el_node nodes[LINKS];
         el_pose world[LINKS];
-        for (int16_t i = 0; i < LINKS; i++) {
+        for (int32_t i = 0; i < LINKS; i++) {
             nodes[i].parent = (int16_t)(i - 1);
             nodes[i].local = i == 0 ? at(35 * arm - 30, -28, 0, 5) : at(0, 20, 0, 8);
             el_pose_turn(&nodes[i].local, EL_AXIS_Z, (uint32_t)(ARMS - 1 - arm) * EL_DEGREES(20, 1));

@@ -53,19 +53,24 @@ el_status feature_play(const feature *of, const feature_way *way, void *memory, 
     shown to = {pixels, depth};
     const el_sink sink = {.context = &to, .begin = begin, .rows = rows, .end = end, .takes_gaps = true};
     el_renderer renderer;
-    el_status status = el_init(&renderer, &(el_config){.width = FEATURE_WIDTH,
-                                                       .height = FEATURE_HEIGHT,
-                                                       .band_lines = way->band_lines,
-                                                       .background = of->scene.background,
-                                                       .samples = way->samples,
-                                                       .interlaced = way->interlaced,
-                                                       .depth_prepass = way->depth_prepass,
-                                                       .memory = memory,
-                                                       .memory_bytes = feature_bytes(way),
-                                                       .sinks = {&sink},
-                                                       .under = of->under.draw != NULL ? &of->under : NULL,
-                                                       .over = of->over.draw != NULL ? &of->over : NULL,
-                                                       .workers = way->workers});
+    el_config config = {.width = FEATURE_WIDTH,
+                        .height = FEATURE_HEIGHT,
+                        .band_lines = way->band_lines,
+                        .background = of->scene.background,
+                        .depth_prepass = way->depth_prepass,
+                        .memory = memory,
+                        .memory_bytes = feature_bytes(way),
+                        .sinks = {&sink},
+                        .under = of->under.draw != NULL ? &of->under : NULL,
+                        .over = of->over.draw != NULL ? &of->over : NULL,
+                        .workers = way->workers};
+#if EL_WITH_SAMPLES
+    config.samples = way->samples;
+#endif
+#if EL_WITH_INTERLACED
+    config.interlaced = way->interlaced;
+#endif
+    el_status status = el_init(&renderer, &config);
     for (unsigned i = 0; i < (way->interlaced ? 2 : 1) && status == EL_OK; i++) {
         status = el_scene_play(&of->scene, 0, &renderer);
         *passes = el_frame_stats(&renderer)->passes;

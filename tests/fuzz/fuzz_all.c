@@ -51,6 +51,8 @@ typedef struct show {
     el_orbit orbits[MAX_FRAMES];
     uint32_t times_ms[MAX_FRAMES];
     uint16_t x, y; /* of the pixel that is picked */
+    uint8_t stripes;
+    uint16_t memory_width; /* with those */
 } show;
 
 /* How it is drawn: must not show. */
@@ -371,8 +373,9 @@ static void play(moment *m, const manner *how, outcome *o)
     const el_layer under = {.context = &painted_under, .draw = paint, .unchanged = is_as_it_was};
     const el_layer over = {.context = &painted_over, .draw = paint, .unchanged = is_as_it_was};
     const unsigned lines = how->way.band_lines;
-    const size_t bytes = how->way.memory_bytes + how->cores * EL_SAMPLES_BYTES((unsigned)s->width, lines, s->samples) +
-                         EL_WORKERS_BYTES((unsigned)s->width, (unsigned)s->height, lines, how->cores);
+    const unsigned width = m->show->memory_width;
+    const size_t bytes = how->way.memory_bytes + how->cores * EL_SAMPLES_BYTES(width, lines, s->samples) +
+                         EL_WORKERS_BYTES(width, (unsigned)s->height, lines, how->cores);
     uint8_t *const memory = malloc(bytes + how->misalignment);
     FUZZ_EXPECT(memory != NULL);
     const el_config config = {
@@ -384,6 +387,7 @@ static void play(moment *m, const manner *how, outcome *o)
         .reuse = how->reuse,
         .interlaced = how->interlaced,
         .samples = s->samples,
+        .stripes = m->show->stripes,
         .depth_prepass = how->depth_prepass,
         .memory = memory + how->misalignment,
         .memory_bytes = bytes,
@@ -456,7 +460,8 @@ static int pick(const moment *m, size_t more, const int answers[], el_picked *pi
         const int status = (m->show->parts[i].kind & BY_INSTANCE) != 0
                                ? el_instances_pick(&p, &m->instances[i], 1)
                                : el_pick_draw(&p, &m->meshes[i][0], &m->poses[i], &m->materials[i]);
-        FUZZ_EXPECT(s->samples != 0 || status == answers[i]);
+        /* Samples and stripes refuse what picking does without them. */
+        FUZZ_EXPECT(s->samples != 0 || m->show->stripes != EL_STRIPES_NONE || status == answers[i]);
     }
     const int is_found = el_pick_end(&p, picked);
     free(memory);
@@ -474,7 +479,7 @@ static void expect_picked(const moment *m, const outcome *o)
     FUZZ_EXPECT(pick(m, 3000, o->draws[last], &b) == is_found);
     FUZZ_EXPECT(a.draw == b.draw && a.triangle == b.triangle && a.depth == b.depth);
     FUZZ_EXPECT(a.draw < s->count && a.triangle < MAX_TRIANGLES);
-    bool is_seen = s->samples == 0;
+    bool is_seen = s->samples == 0 && m->show->stripes == EL_STRIPES_NONE;
     for (unsigned i = 0; i < s->count; i++) {
         is_seen = is_seen && is_plain(&m->materials[i]);
     }
@@ -512,18 +517,21 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     const uint8_t misalignment = take_u8(&in);
     take_show(&in, &s);
     const uint8_t choices = take_u8(&in);
+    s.stripes = (choices >> 5) % (EL_WITH_STRIPES ? EL_STRIPES_COUNT : 1);
+    s.memory_width = (uint16_t)(s.stripes == EL_STRIPES_NONE ? s.scene.width : EL_STRIPED_WIDTH(s.scene.width));
     manner manners[WAYS] = {
-        {.way = way_of(s.scene.width, s.scene.height, lines[1], more[1]), .misalignment = misalignment % 8},
-        {.way = way_of(s.scene.width, s.scene.height, lines[0], more[0])},
-        {.way = way_of(s.scene.width, s.scene.height, lines[0], more[1]), .cores = 1, .interlaced = true},
+        {.way = way_of(s.memory_width, s.scene.height, lines[1], more[1]), .misalignment = misalignment % 8},
+        {.way = way_of(s.memory_width, s.scene.height, lines[0], more[0])},
+        {.way = way_of(s.memory_width, s.scene.height, lines[0], more[1]), .cores = 1, .interlaced = true},
     };
     manners[0].reuse = choices % (EL_REUSES + 1);
     manners[0].cores = 1;
     manners[0].depth_prepass = (choices & 4) != 0 && can_draw_depth_first(&s);
     manners[1].cores = EL_WITH_WORKERS ? 1U + (choices >> 3) % MAX_CORES : 1U;
     m.show = &s;
-    /* Neither samples nor a single line are interlaced. */
-    const unsigned ways = EL_WITH_INTERLACED && s.scene.samples == 0 && s.scene.height > 1 ? WAYS : WAYS - 1;
+    /* Neither samples nor stripes nor a single line are interlaced. */
+    const bool is_sharp = s.scene.samples == 0 && s.stripes == EL_STRIPES_NONE;
+    const unsigned ways = EL_WITH_INTERLACED && is_sharp && s.scene.height > 1 ? WAYS : WAYS - 1;
     for (unsigned i = 0; i < ways; i++) {
         play(&m, &manners[i], &outcomes[i]);
         if (i > 0) {

@@ -20,7 +20,7 @@ ALL_FRAMES = 10
 FIRST_FRAMES = 120
 HALFWAY = 60
 
-NOT_IN_SMALL_CODE = {"materials", "wires"}
+NOT_IN_SMALL_CODE = {"materials", "lamps", "wires"}
 """Scenes whose features are left out where -Os asks for small code."""
 
 Crcs = dict[str, list[str]]
