@@ -48,7 +48,8 @@ def test_a_domain_that_contradicts_itself_is_no_proof() -> None:
 def test_a_fault_is_found_where_something_is_in_the_domain() -> None:
     largest = Subject(FILE, "el_max_i32", any_two, is_the_largest)
     assert largest.prove() == 2
-    largest.fails_with(Fault("base/fixed.h", "return a > b ? a : b;", "return a >= 0 ? a : b;"))
+    signature = "el_max_i32(int32_t a, int32_t b)\n{\n    return "
+    largest.fails_with(Fault("base/fixed.h", signature + "a > b ?", signature + "a >= 0 ?"))
 
 
 def excluded(symbol: str, x: int, y: int, masks: bool) -> bool:
