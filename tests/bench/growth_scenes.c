@@ -27,7 +27,7 @@ static el_mesh spheres[GROWTH_SPHERES]; /* one for each part of them */
 static el_mesh behind;                  /* many parts */
 static el_material layers[GROWTH_LAYERS];
 
-static const el_texture texture = {texels, TEXTURE_LOG2, TEXTURE_LOG2};
+static const el_texture texture = {.texels = texels, .width_log2 = TEXTURE_LOG2, .height_log2 = TEXTURE_LOG2};
 
 static void set_3(int16_t v[3], int32_t x, int32_t y, int32_t z)
 {

@@ -106,7 +106,6 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
         return draw_wires(painter, renderer, name, corners, &surface, target);
     }
 #endif
-    surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_debug_surface(renderer, record, &surface);
     const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
     const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
@@ -119,6 +118,7 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
         return reaches_on ? name : 0;
     }
 #endif
+    surface.uv_error_log2 = renderer->config.uv_error_log2;
     el_count(&painter->stats->setups, 1);
     if (EL_WITH_CARRY && reaches_on) {
         state_name = take_state(c, list, (el_state_kind)surface.shading);

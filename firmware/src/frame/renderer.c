@@ -111,7 +111,9 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     renderer->band_count = bands_of(config->height, lines);
     renderer->pass_bands = renderer->band_count;
 
+#if EL_WITH_WORKERS
     renderer->workers = (uint8_t)workers;
+#endif
 
     /* Two colour bands of each core, bins, the other cores' painters and bins, all cores' samples, list ..., depth bands: the vertices of a draw lie at
      * the end of the list's memory and reach over the depth bands while no band is open. Names of records do not reach
