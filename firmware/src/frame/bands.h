@@ -41,11 +41,9 @@ static inline unsigned el_renderer_samples(const el_renderer *renderer)
 /* Lines of the frame: the screen's, or a field's. */
 static inline int32_t el_renderer_lines(const el_renderer *renderer)
 {
-#if EL_WITH_INTERLACED
-    return renderer->lines;
-#else
-    return renderer->config.height;
-#endif
+    const unsigned field = el_list_field(&renderer->list);
+    const int32_t height = renderer->config.height;
+    return !EL_WITH_INTERLACED || field == EL_FIELD_NONE ? height : (height + (field == EL_FIELD_EVEN)) >> 1;
 }
 
 /* Counts a use of `bytes` of the list's memory in the peak. */

@@ -48,8 +48,7 @@ static void begin_field(el_renderer *renderer)
 {
     const uint8_t field = renderer->list.field == EL_FIELD_EVEN ? EL_FIELD_ODD : EL_FIELD_EVEN;
     renderer->list.field = field;
-    renderer->lines = (uint16_t)((renderer->config.height + (field == EL_FIELD_EVEN ? 1U : 0U)) / 2U);
-    renderer->band_count = bands_of(renderer->lines, renderer->config.band_lines);
+    renderer->band_count = bands_of((uint32_t)el_renderer_lines(renderer), renderer->config.band_lines);
 }
 #endif
 
@@ -105,9 +104,6 @@ el_status el_init(el_renderer *renderer, const el_config *config)
     renderer->config.width = (uint16_t)width;
 #endif
     renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
-#if EL_WITH_INTERLACED
-    renderer->lines = config->height;
-#endif
     renderer->band_count = bands_of(config->height, lines);
     renderer->pass_bands = renderer->band_count;
 

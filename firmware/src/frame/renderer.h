@@ -185,10 +185,7 @@ typedef struct el_renderer {
 #if EL_WITH_DEBUG_VIEWS
     uint8_t pass_draws; /* draws before this pass, modulo 256 */
 #endif
-#if EL_WITH_INTERLACED
-    uint16_t lines; /* of this frame: the screen's, or a field's */
-#endif
-    uint16_t band_count;
+    uint16_t band_count; /* of this frame */
     uint16_t pass_begin; /* bands of this pass */
     uint16_t pass_end;
     uint16_t pass_bands;  /* what the next pass tries for */
