@@ -65,11 +65,11 @@ el_status el_highlight_make(el_highlight *highlight, uint32_t exponent);
  * part in either sum. */
 typedef struct el_lighting {
     const el_lamp *lamps;
-    uint8_t lamp_count; /* 0 to EL_LAMPS_MAX */
+    const el_highlight *highlight; /* NULL: none, whatever is specular */
+    uint8_t lamp_count;            /* 0 to EL_LAMPS_MAX */
     uint8_t ambient[3], emissive[3], specular[3];
     uint8_t colour[3];
-    const el_highlight *highlight; /* NULL: none, whatever is specular */
-    bool two_sided;                /* normals that look away from the eye are turned around */
+    bool two_sided; /* normals that look away from the eye are turned around */
 } el_lighting;
 
 /* The colours [vertex_count], within 1/255 of the formula. `colours` may be the mesh's own only if those are not const data.
