@@ -56,7 +56,9 @@ el_status bench_frame(const el_scene *scene, uint32_t number, const bench_settin
         .background = scene->background,
         .uv_error_log2 = setting->uv_error_log2,
         .depth_prepass = setting->depth_prepass,
+#if EL_WITH_SAMPLES
         .samples = setting->samples,
+#endif
         .over = setting->over,
         .memory = setting->arena,
         .memory_bytes = setting->arena_bytes,
