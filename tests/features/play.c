@@ -20,7 +20,7 @@ static void rows(void *context, el_band *band, unsigned slot)
     const shown *const to = context;
     const size_t bytes = FEATURE_WIDTH * sizeof to->pixels[0];
     for (size_t i = 0; i < band->lines; i++) {
-        const size_t at = (band->y + i * (1U + band->gap)) * FEATURE_WIDTH;
+        const size_t at = (band->y + i * (1U + el_band_gap(band))) * FEATURE_WIDTH;
         memcpy(to->pixels + at, band->pixels + i * FEATURE_WIDTH, bytes);
         memcpy(to->depth + at, band->depth + i * FEATURE_WIDTH, bytes);
     }
@@ -51,7 +51,15 @@ el_status feature_play(const feature *of, const feature_way *way, void *memory, 
                        uint32_t *passes)
 {
     shown to = {pixels, depth};
-    const el_sink sink = {.context = &to, .begin = begin, .rows = rows, .end = end, .takes_gaps = true};
+    const el_sink sink = {
+#if EL_WITH_INTERLACED
+        .takes_gaps = true,
+#endif
+        .context = &to,
+        .begin = begin,
+        .rows = rows,
+        .end = end,
+    };
     el_renderer renderer;
     el_config config = {.width = FEATURE_WIDTH,
                         .height = FEATURE_HEIGHT,

@@ -50,8 +50,8 @@ def test_a_wrong_constant_is_found() -> None:
     source = seeded_copy(
         "features-faulty",
         "firmware/src/raster/fog.h",
-        "return (farther - (fall * in_step >> fog->step_log2) + 64U) >> 7;",
-        "return (farther - (fall * in_step >> fog->step_log2)) >> 7;",
+        "return (farther - (fall * in_step >> step_log2) + 64U) >> 7;",
+        "return (farther - (fall * in_step >> step_log2)) >> 7;",
     )
     found = drawn(CORES["cortex-m3"], "features-faulty", source=source)
     expected = golden()

@@ -140,7 +140,7 @@ static void test_an_edge_has_the_pixels_that_it_is_in(void)
             if (is_wanted != (colour[i] == WIRE) ||
                 (is_wanted && depth[i] != expected[i] && depth[i] + 1 != expected[i])) {
                 fail_at(&s, "pixel (%u, %u) has colour %04x, depth %d, not %d", i % SIZE, i / SIZE, colour[i], depth[i],
-                        expected[i]);
+                        (int)expected[i]);
             }
         }
     }

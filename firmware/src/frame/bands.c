@@ -75,7 +75,7 @@ static EL_APART_IF_SMALL void draw_layer(el_painter *painter, const el_layer *la
 
 #if EL_WITH_STRIPES
 /* A layer draws pixels: what it drew into a cleared band, of which they take the first third, is cut into stripes then. */
-static void draw_under_stripes(el_painter *painter, const el_config *config)
+static EL_SELDOM void draw_under_stripes(el_painter *painter, const el_config *config)
 {
     el_band *const buffer = &painter->bands[painter->current];
     if (config->under != NULL) {
@@ -86,7 +86,7 @@ static void draw_under_stripes(el_painter *painter, const el_config *config)
     buffer->width = config->width;
 }
 
-static void make_pixels_of_stripes(el_painter *painter, const el_config *config)
+static EL_SELDOM void make_pixels_of_stripes(el_painter *painter, const el_config *config)
 {
     el_band *const buffer = &painter->bands[painter->current];
     buffer->width = (uint16_t)(config->width / EL_STRIPES_PER_PIXEL);

@@ -3,6 +3,7 @@
 #define EL_FRAME_BANDS_H
 
 #include "frame/renderer.h"
+#include "raster/triangle.h"
 
 /* The painter of core `worker`, 0 being the caller's. */
 static inline el_painter *el_renderer_painter(el_renderer *renderer, unsigned worker)

@@ -3,6 +3,7 @@
 #define EL_FRAME_PAINTER_FIELD_H
 
 #include "frame/renderer.h"
+#include "raster/triangle.h"
 
 #if EL_WITH_INTERLACED
 /* Draws the triangles of the chains that begin with `fresh`, the band's own, and `carried` into the target, and leaves those

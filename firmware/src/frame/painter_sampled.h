@@ -3,6 +3,7 @@
 #define EL_FRAME_PAINTER_SAMPLED_H
 
 #include "frame/renderer.h"
+#include "raster/triangle.h"
 
 #if EL_WITH_SAMPLES
 /* Draws the triangles of the chains that begin with `fresh`, the band's own, and `carried` into the target, and leaves those

@@ -6,6 +6,7 @@
 #include "frame/bands.h"
 #include "frame/debug_hooks.h"
 #include "frame/quiet.h"
+#include "raster/samples.h"
 
 _Static_assert(sizeof(el_record) <= EL_TRIANGLE_BYTES, "the size that EL_MEMORY_BYTES counts with");
 _Static_assert(sizeof(el_record_perspective) <= EL_TEXTURED_TRIANGLE_BYTES,

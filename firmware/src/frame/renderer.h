@@ -29,7 +29,7 @@
 #include "geometry/transform.h"
 #include "raster/list.h"
 #include "raster/material.h"
-#include "raster/samples.h"
+#include "raster/sample_memory.h"
 #include "raster/stripes.h"
 
 #ifdef __cplusplus
@@ -99,7 +99,7 @@ enum {
 /* A display's stripes. With those, all of the above is for this width; the width itself is 1..EL_MAX_STRIPED. */
 typedef enum el_stripes { EL_STRIPES_NONE, EL_STRIPES_RGB, EL_STRIPES_BGR, EL_STRIPES_COUNT } el_stripes;
 
-enum { EL_MAX_STRIPED = EL_MAX_WIDTH / EL_STRIPES_PER_PIXEL };
+enum { EL_MAX_STRIPED = (int)EL_MAX_WIDTH / (int)EL_STRIPES_PER_PIXEL };
 #define EL_STRIPED_WIDTH(width) (EL_STRIPES_PER_PIXEL * (width))
 
 /* What of the frame before need not be made again; bits of el_config.reuse. The renderer's sinks must get frames from no

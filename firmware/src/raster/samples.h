@@ -12,13 +12,12 @@
 #ifndef EL_RASTER_SAMPLES_H
 #define EL_RASTER_SAMPLES_H
 
+#include "raster/sample_memory.h"
 #include "raster/triangle.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-enum { EL_MAX_SAMPLES = 8 };
 
 /* Where a sample is, from the pixel's centre, in 1/EL_SUBPIXELS px. */
 typedef struct el_sample_point {
@@ -47,9 +46,6 @@ static inline uint8_t el_samples_reach(unsigned count)
 {
     return (uint8_t)(count <= 1 ? 0 : (count == 4 ? 6 : 7) * (EL_SUBPIXELS / 16));
 }
-
-/* Words of a row's mixed bits, a bit per pixel; those of a band's rows lie behind each other without a gap. */
-#define EL_MIXED_WORDS(width) (((width) + 31U) / 32U)
 
 /* A band whose pixels have several samples. */
 typedef struct el_sampled_target {
