@@ -23,7 +23,8 @@ const char *el_machine_message(el_status status)
     case EL_ERROR_RANGE:
         return "the mesh or the camera is outside +-16384 units, or the mesh is too large for so narrow a view";
     case EL_ERROR_MATERIAL:
-        return "the mesh has no texture, texture coordinates or normals for this shading";
+        return "the mesh has no texture, texture coordinates or normals for this shading, or its material does not go "
+               "with the settings, as wires with several samples (raster/material.h)";
     }
     return "unknown error";
 }
