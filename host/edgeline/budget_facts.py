@@ -267,7 +267,7 @@ def el_min_memory_bytes(width: int, height: int, band_lines: int) -> int:
 
 
 def el_mixed_words(width: int) -> int:
-    """EL_MIXED_WORDS of raster/samples.h."""
+    """EL_MIXED_WORDS of raster/sample_memory.h."""
     return (width + 31) // 32
 
 
