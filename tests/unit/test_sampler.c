@@ -191,6 +191,10 @@ static void test_rows_are_as_one_at_a_time(void)
     uint32_t times[EL_TEXELS_ANY + 1] = {0};
     for (seeded s = seeded_from(904); s.round < PART_OF(20000U); s.round++) {
         any_picture(&s);
+        if (any_below(&s, 2) == 0) { /* for which there are ways that others have not */
+            p.image.width = (uint16_t)(1U << (el_bit_length_u32(p.image.width) - 1));
+            p.image.height = (uint16_t)(1U << (el_bit_length_u32(p.image.height) - 1));
+        }
         const el_texture texture = {.image = &p.image,
                                     .wrap_u = (uint8_t)(any_below(&s, 2) * any_below(&s, 3)),
                                     .wrap_v = (uint8_t)(any_below(&s, 2) * any_below(&s, 3)),
