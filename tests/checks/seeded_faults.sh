@@ -1,8 +1,8 @@
 # shellcheck shell=bash
 # Shows of each gate that it can fail, and fails for its own reason. A small tree that all gates accept is made, then
 # one fault at a time is put into a copy of it: the gate must end with status 1 and say the words that belong to the
-# fault. One line each: "found GATE: FAULT", "missed ...", "skipped ...". Status 1 when one was missed. Run it with `bash tests/checks/seeded_faults.sh`; what is
-# executable in this folder is a gate.
+# fault. One line each: "found GATE: FAULT", "missed ...", "skipped ...". Status 1 when one was missed. Run it with
+# `bash tests/checks/seeded_faults.sh`; what is executable in this folder is a gate.
 set -uo pipefail
 # shellcheck source=tests/lib.sh
 . "$(dirname "${BASH_SOURCE[0]}")/../lib.sh"
@@ -154,8 +154,9 @@ fault own_paths "an address of a registry" "an address of a package registry" a.
 
 # --- the looks of surfaces ----------------------------------------------------------------------------------------------
 
-# Faults in what lights, fog and mixes, one place changed in a copy of a source: its unit test must fail. What is inline is
-# changed in its header, and compiled into the sources that are named.
+# Faults in what lights, fog and mixes, one place changed in a copy of a source: its unit test must fail, by an assertion of
+# its own. A fault reads no memory that is not the program's: what that would show is the machine's choice. What is inline
+# is changed in its header, and compiled into the sources that are named.
 unity=${EDGELINE_UNITY_DIR:-$build/unity/src}
 [ -f "$unity/unity.c" ] || unity=$build/sim/_deps/unity-src/src
 looks=$work/looks
@@ -210,7 +211,7 @@ look test_fog "e^-x of too few terms" $fog "TERMS = 8" "TERMS = 2"
 look test_fog "fog begins at the eye" $fog "begin_q16 > view->near_q16 ? begin_q16" "begin_q16 > view->far_q16 ? begin_q16"
 look test_sampler "mirrors repeat" raster/sampler.c ": axis->period - 1U - in_period" ": in_period - axis->size"
 look test_sampler "coordinates below 0 are off by one" raster/sampler.c "(FARTHEST + period - 1U) / period * period" "FARTHEST"
-look test_sampler "rows mirror by one too few" $texels "axis->period - 1U - place" "axis->period - 2U - place"
+look test_sampler "rows mirror by one too few" $texels "axis->period - 1U - place" "(axis->period - 2U - place) % axis->size"
 look test_sampler "the right half byte is the left one" $texels "((~i & 1U) << 2)" "((i & 1U) << 2)"
 look test_sampler "the lower two texels are the upper" $texels "(y + width) & from.v_mask" "y & from.v_mask"
 look test_sampler "alpha of a palette is forgotten" $texels "if (line->has_alpha_apart)" "if (false)"
