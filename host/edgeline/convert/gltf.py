@@ -242,7 +242,7 @@ class _Reader:
             if np.linalg.det(linear) < 0:  # a mirror turns the winding around
                 corners = corners[:, ::-1]
             if normals is not None:
-                normals = np.nan_to_num(normals @ _cofactors(linear).T, posinf=0.0, neginf=0.0)
+                normals = np.nan_to_num(normals @ _normal_matrix(linear).T, posinf=0.0, neginf=0.0)
         return Piece(
             where,
             material,
@@ -293,9 +293,11 @@ class _Reader:
         return np.asarray(uvs + material.offset)
 
 
-def _cofactors(m: Floats) -> Floats:
-    """The inverse transposed times the determinant, which normals are turned by; defined for every matrix."""
-    return np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
+def _normal_matrix(m: Floats) -> Floats:
+    """The inverse transposed, by which normals are turned, times the determinant's magnitude: defined for every matrix, and
+    in a mirror what looked outwards still does."""
+    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
+    return cofactors if np.linalg.det(m) >= 0 else -cofactors
 
 
 def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> Source:
