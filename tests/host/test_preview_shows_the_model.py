@@ -104,6 +104,14 @@ def gltf_beside(folder: Path) -> Path:
     return folder / "ring.gltf"
 
 
+def coloured() -> Gltf:
+    """A texture times vertex colours."""
+    gltf = Gltf()
+    paint = gltf.material(image={"bufferView": gltf.view(checks()), "mimeType": "image/png"})
+    gltf.node(gltf.primitive(MODEL, "u4", "ptc", material=paint))
+    return gltf
+
+
 CASES: dict[str, tuple[Callable[[Path], Path], list[str]]] = {
     "obj": (house, ["--texture-size", "16", "--no-clusters"]),
     "stl": (written("ring.stl", stl_binary(MODEL)), ["--up", "z"]),
@@ -112,6 +120,8 @@ CASES: dict[str, tuple[Callable[[Path], Path], list[str]]] = {
     "ply-textured": (written("ring.ply", ply(MODEL, "", "fields.png", True)), ["--panel", "st7735"]),
     "glb": (written("scene.glb", scene().glb()), ["--panel", "ili9341", "--texture-size", "16"]),
     "obj-palette": (house, ["--texture-format", "palette4", "--texture-size", "16", "--mipmaps", "--crease", "0"]),
+    "glb-coloured": (written("ring.glb", coloured().glb()), ["--texture-size", "16"]),
+    "obj-lit": (house, ["--shading", "lit", "--texture-size", "16", "--crease", "0"]),
     "glb-alpha": (written("panes.glb", panes().glb()), ["--texture-size", "16"]),
     "gltf": (gltf_beside, ["--texture-size", "16"]),
 }

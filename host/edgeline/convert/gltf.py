@@ -294,8 +294,8 @@ class _Reader:
 
 
 def _normal_matrix(m: Floats) -> Floats:
-    """The inverse transposed, by which normals are turned, times the determinant's magnitude: defined for every matrix, and
-    in a mirror what looked outwards still does."""
+    """The inverse transposed, by which normals are turned, times the determinant's magnitude: defined for every
+    matrix, and in a mirror what looked outwards still does."""
     cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
     return cofactors if np.linalg.det(m) >= 0 else -cofactors
 

@@ -21,7 +21,8 @@ from edgeline.errors import EdgelineError
 
 COLUMNS = 120
 PLAIN = 200, 200, 200
-"""The colour of what has none, in the simulator too."""
+WHITE = 255, 255, 255
+"""The colour of what has none, and of what has a texture, which leaves its texels as they are; in the simulator too."""
 
 RESERVED = re.compile(
     "auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|main|register"
@@ -53,7 +54,7 @@ class NamedMesh:
     def shading(self) -> str:
         """The dearest that the mesh has what it takes for, as the simulator chooses it too."""
         if self.texture is not None:
-            return "textured"
+            return "textured" if self.mesh.colours is None else "textured_gouraud"
         return "flat" if self.mesh.triangle_colours is not None and self.mesh.colours is None else "gouraud"
 
 
@@ -173,7 +174,7 @@ def material_lines(named: NamedMesh, look: Look) -> list[str]:
     if look.two_sided:
         lines += ["    .flags = EL_MATERIAL_TWO_SIDED,"]
     if named.mesh.colours is None and named.mesh.triangle_colours is None:
-        lines += [f"    .colour = {{{', '.join(map(str, PLAIN))}}},"]
+        lines += [f"    .colour = {{{', '.join(map(str, PLAIN if named.texture is None else WHITE))}}},"]
     if look.opacity != 255:
         lines += [f"    .alpha = {look.opacity},"]
     if named.texture is not None:

@@ -45,8 +45,9 @@ def add_parser(subparsers: SubParsers) -> None:
     parser.add_argument("--size", metavar="WxH", help="of the picture")
     parser.add_argument(
         "--shading",
-        choices=("flat", "gouraud", "textured"),
-        help="default: textured with textures, smooth with normals, flat with colours of triangles",
+        choices=("flat", "gouraud", "textured", "lit"),
+        help="default: textured with textures, times vertex colours if there are any, smooth with normals, flat with "
+        "colours of triangles; lit: the same, with textures in a light, too",
     )
     parser.add_argument("--eye", metavar="X,Y,Z", help="where the camera stands (default: where all is seen)")
     parser.add_argument("--look-at", metavar="X,Y,Z", help="where it looks (default: the middle)")

@@ -192,13 +192,15 @@ def fitted_wrap(source: Source, style: Style, sides: tuple[int, int]) -> tuple[S
 def soup_of(source: Source, texture: Texture | None) -> Soup:
     """The triangles of a source with one part. Raises EdgelineError for what cannot be met.
 
-    Texture coordinates are kept when there is a texture, colours of triangles when there is none.
+    Texture coordinates are kept when there is a texture, colours of triangles when there is none; colours of vertices,
+    which texels are multiplied by, when one of them is not white.
     """
+    is_white = texture is not None and source.colours is not None and bool(np.all(source.colours == 255))
     return Soup(
         positions=source.positions,
         normals=source.normals,
         uvs=None if texture is None else texel_coordinates(source, texture),
-        colours=source.colours,
+        colours=None if is_white else source.colours,
         triangle_colours=source.triangle_colours if texture is None else None,
     )
 
