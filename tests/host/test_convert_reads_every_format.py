@@ -232,12 +232,12 @@ def test_texture_transforms_are_applied(read: Read) -> None:
 def test_what_is_left_out_is_named(read: Read) -> None:
     gltf = Gltf()
     points = gltf.accessor(MODEL.positions, "f4")
-    see_through = gltf.material(alphaMode="BLEND", doubleSided=True)
+    see_through = gltf.material(alphaMode="BLEND", doubleSided=True, emissiveFactor=[0, 0.5, 0])
     target = {"targets": [{"POSITION": points}], "material": see_through}
     gltf.node({"attributes": {"POSITION": points}, "mode": 0}, gltf.primitive(MODEL, **target), skin=0)
     gltf.json |= {"skins": [{"joints": [0]}], "animations": [{}]}
     told = " / ".join(read("m.glb", gltf.glb()).notes)
-    for word in ("points or lines", "morph targets", "skin", "animations"):
+    for word in ("points or lines", "morph targets", "skin", "animations", "paint 0: its glow"):
         assert word in told
 
 

@@ -1,6 +1,6 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations. Refused: extensions that a
+Left out, each with a note: points and lines, skins, morph targets, animations, what glows. Refused: extensions that a
 file requires and that are not known here, compression above all.
 """
 
@@ -142,6 +142,8 @@ class _Reader:
         if mode not in ALPHAS:
             raise file.error(f"{where}: 'alphaMode' is {mode:.20}")
         two_sided = file.value(material, where, "doubleSided", bool, False)
+        if any(file.numbers(material, where, "emissiveFactor", [0.0] * 3)):
+            self.note(f"{name}: its glow is left out; el_lighting.emissive makes surfaces glow")
         surface = file.value(material, where, "pbrMetallicRoughness", dict, {})
         red, green, blue, opacity = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
         opacity = min(max(opacity, 0.0), 1.0)
