@@ -185,7 +185,8 @@ def test_what_is_wrong_gets_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert refused("preview", tmp_path / "m.stl", "-o", "x.jpg") == "-o x.jpg: the picture is a PNG; name it so"
     told = refused("preview", tmp_path / "m.stl", "-o", output, "--panel", "st7735", "--size", "200x200")
     assert told.startswith("the simulator: ") and "larger than the st7735" in told
-    assert refused("preview", tmp_path / "m.stl", "-o", output, "--shading", "textured").startswith("the simulator: ")
+    told = refused("preview", tmp_path / "m.stl", "-o", output, "--shading", "textured")
+    assert told.startswith("the simulator: edgeline-sim: m has no texture: ")
     monkeypatch.setenv("EDGELINE_SIM", str(tmp_path / "absent"))
     assert "there is no such file; build the simulator, or unset it" in refused("preview", tmp_path / "m.stl")
     monkeypatch.delenv("EDGELINE_SIM")
