@@ -388,6 +388,18 @@ def test_texels_are_multiplied_by_vertex_colours(tmp_path: Path) -> None:
     assert ".shading = EL_SHADE_TEXTURED_GOURAUD," in text and ".colours = m_colours," in text
 
 
+def test_a_texture_stands_in_the_place_of_colours_where_the_format_has_no_product(tmp_path: Path) -> None:
+    """A scan's PLY or OBJ has the same colours twice: at its vertices, and in its picture."""
+    (tmp_path / "t.png").write_bytes(checks())
+    (tmp_path / "m.mtl").write_text("newmtl a\nmap_Kd t.png\n")
+    corners = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    (tmp_path / "m.obj").write_text(f"mtllib m.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\n")
+    convert(tmp_path / "m.obj", "-o", tmp_path / "m.h")
+    assert ".colours" not in (tmp_path / "m.h").read_text()
+    convert(tmp_path / "m.obj", "--no-texture", "-o", tmp_path / "m.h")
+    assert ".colours = m_colours," in (tmp_path / "m.h").read_text()
+
+
 def test_colours_of_materials_at_vertices_are_those_without_a_texture(tmp_path: Path) -> None:
     (tmp_path / "t.png").write_bytes(checks())
     (tmp_path / "m.mtl").write_text("newmtl a\nKd 0.5 0 0\nmap_Kd t.png\nnewmtl b\nKd 0 1 0\n")

@@ -352,6 +352,7 @@ def _source(reader: _Reader, pieces: list[Piece]) -> Source:
             normals=_joined([piece.normals for piece in pieces], counts, 3, 0.0),
             uvs=_joined([piece.uvs for piece in pieces], counts, 2, np.nan),
             colours=_vertex_colours(pieces),
+            tints=True,
             triangle_colours=_triangle_colours(pieces, counts),
             notes=tuple(reader.notes),
         )

@@ -73,6 +73,7 @@ class Source:
     normals: Floats | None = None  # (m, 3 corners, 3), of any length
     uvs: Floats | None = None  # (m, 3 corners, 2) in repetitions of the image, v down
     colours: npt.NDArray[np.uint8] | None = None  # (m, 3 corners, 3)
+    tints: bool = False  # the format says that a picture is multiplied by `colours`; else it stands in their place
     triangle_colours: npt.NDArray[np.uint8] | None = None  # (m, 3)
     notes: tuple[str, ...] = ()
 
