@@ -20,7 +20,7 @@ static const struct {
      "               [--png FILE] [--raw FILE] [--depth FILE] [--wire FILE] [--crc] [--stats] [--depth-prepass]\n"
      "               a FILE of --png with %d or %04d in its name: one for each frame\n"
      "               with --mesh: [--eye X,Y,Z] [--look-at X,Y,Z] [--fov DEGREES] [--near N] [--far F]\n"
-     "               [--shading flat|gouraud|textured]\n"
+     "               [--shading flat|gouraud|textured|lit]: lit has textures in a light, too\n"
      "               a debug view: [--view NAME], as `list views` names them\n"
      "               with a scene: [--yaw N] [--pitch N] [--zoom N] [--pan-x N] [--pan-y N], as INPUT in WIRE.md has\n"
      "               them, and [--shading flat|gouraud|textured]: without textures and vertex colours, or one of them"},

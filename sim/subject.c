@@ -31,14 +31,16 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
     const bool has_texture = texture->texels != NULL;
 #endif
     const bool is_faceted = subject->mesh.triangle_colours != NULL && subject->mesh.colours == NULL;
-    material->shading = has_texture ? EL_SHADE_TEXTURED : is_faceted ? EL_SHADE_FLAT : EL_SHADE_GOURAUD;
-    if (options->shading != NULL) {
+    const bool is_lit = options->shading != NULL && strcmp(options->shading, "lit") == 0;
+    const el_shading texels = subject->mesh.colours != NULL || is_lit ? EL_SHADE_TEXTURED_GOURAUD : EL_SHADE_TEXTURED;
+    material->shading = (uint8_t)(has_texture ? texels : is_faceted ? EL_SHADE_FLAT : EL_SHADE_GOURAUD);
+    if (options->shading != NULL && !is_lit) {
         unsigned i = 0;
         while (i < 3 && strcmp(options->shading, names[i]) != 0) {
             i++;
         }
         if (i == 3) {
-            el_report("--shading takes flat, gouraud or textured, not '%s'", options->shading);
+            el_report("--shading takes flat, gouraud, textured or lit, not '%s'", options->shading);
             return false;
         }
         material->shading = (uint8_t)i;
@@ -47,9 +49,13 @@ static bool choose_shading(el_subject_mesh *subject, const char *name, const el_
         el_report("%s has no texture: convert it with one, or use --shading flat or gouraud", name);
         return false;
     }
+    for (unsigned i = 0; i < 3; i++) {
+        material->colour[i] = has_texture ? 255 : 200; /* of what has none of its own; texels are multiplied by it */
+    }
     material->flags = (uint8_t)(EL_MATERIAL_FLAT_MEAN | subject->surface.flags);
     material->texture = texture;
-    material->light = subject->mesh.normals != NULL && material->shading != EL_SHADE_TEXTURED ? &light : NULL;
+    material->light =
+        subject->mesh.normals != NULL && (is_lit || !el_has_texture((el_shading)material->shading)) ? &light : NULL;
     return true;
 }
 
@@ -178,9 +184,6 @@ static bool open_mesh(el_subject *subject, const char *name, const el_subject_op
         el_report("%s: %s", name, el_elm_message(status));
         return false;
     }
-    one->material.colour[0] = 200;
-    one->material.colour[1] = 200;
-    one->material.colour[2] = 200;
     return choose_shading(one, name, options);
 }
 

@@ -16,6 +16,7 @@ from edgeline.commands.options import EXIT_CODES
 from edgeline.commands.report import complain
 from edgeline.convert.command import add_parser as add_convert_parser
 from edgeline.convert.font_command import add_parser as add_font_parser
+from edgeline.convert.image_command import add_parser as add_image_parser
 from edgeline.convert.preview import add_parser as add_preview_parser
 from edgeline.errors import EdgelineError
 
@@ -62,6 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     add_convert_parser(commands)
     add_preview_parser(commands)
     add_font_parser(commands)
+    add_image_parser(commands)
     add_budget_parser(commands)
     bench.add_parsers(commands)
     return parser

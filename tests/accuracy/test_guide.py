@@ -21,7 +21,7 @@ from sim_commands import Simulator
 FIRMWARE = REPOSITORY / "firmware"
 PAGES = [FIRMWARE / "GUIDE.md", *sorted((FIRMWARE / "guide").glob("*.md"))]
 COMPILED = [*(REPOSITORY / "tests" / "unit").glob("test_*_guide.c"), *(FIRMWARE / "examples" / "programs").glob("*.c")]
-SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]+)\)\n\(`(build/sim/[^`]+)`\)\n")
+SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]+)\)\n\(`(build/(?:sim|venv/bin)/[^`]+)`\)\n")
 
 
 def words(text: str) -> str:
@@ -41,6 +41,7 @@ def test_its_c_is_compiled(page: Path) -> None:
 def test_its_picture_is_what_the_command_makes(page: Path, simulator: Simulator, tmp_path: Path) -> None:
     shown = SHOWN.findall(page.read_text(encoding="utf-8"))
     assert shown, f"{page.name} has no picture with the command that makes it"
+    copy_the_model(tmp_path)
     for picture, command in shown:
         run(command, simulator, tmp_path)
         made = next(tmp_path.glob("*.png"))
@@ -51,7 +52,7 @@ def test_its_picture_is_what_the_command_makes(page: Path, simulator: Simulator,
 
 def test_its_commands_run(simulator: Simulator, tmp_path: Path) -> None:
     """One after another in one folder, as somebody types them; the builds are those of this test's own run."""
-    shutil.copytree(FIRMWARE / "examples" / "SpinningModel", tmp_path / "firmware" / "examples" / "SpinningModel")
+    copy_the_model(tmp_path)
     typed = re.findall(r"^    (build/(?:venv|sim)/.+)$", PAGES[0].read_text(encoding="utf-8"), re.MULTILINE)
     assert len(typed) >= 6
     for command in typed:
@@ -87,6 +88,11 @@ def test_the_limits_are_those_of_the_headers(name: str, row: str) -> None:
     headers = [path.read_text(encoding="utf-8") for path in (FIRMWARE / "src").rglob("*.h")]
     [value] = [int(found) for text in headers for found in re.findall(rf"\b{name} = (\d+)\b", text)]
     assert row.format(value) in (FIRMWARE / "guide" / "limits.md").read_text(encoding="utf-8")
+
+
+def copy_the_model(folder: Path) -> None:
+    """Where commands that are typed in the repository's folder look for it."""
+    shutil.copytree(FIRMWARE / "examples" / "SpinningModel", folder / "firmware" / "examples" / "SpinningModel")
 
 
 def run(command: str, simulator: Simulator, folder: Path) -> None:

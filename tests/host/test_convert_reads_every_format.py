@@ -116,6 +116,23 @@ def test_nodes_put_their_meshes_in_place(read: Read) -> None:
     assert source.where(len(CORNERS) + 1) == "m.glb: meshes[0] primitive 0 triangle 1"
 
 
+@pytest.mark.parametrize("scale", [[1, 1, 1], [3, 1, 0.5], [-1, 1, 1], [-1, -1, -1], [-2, -1, 1], [1, -4, 2]])
+def test_normals_stay_with_their_triangles_in_turned_stretched_and_mirrored_nodes(
+    read: Read, scale: list[float]
+) -> None:
+    corners = np.array([(0, 0, 0), (2, 0, 1), (0, 1, 1)])
+    normal = np.cross(corners[1], corners[2])
+    gltf = Gltf()
+    attributes = {"POSITION": gltf.accessor(corners, "f4"), "NORMAL": gltf.accessor(np.tile(normal, (3, 1)), "f4")}
+    gltf.node({"attributes": attributes}, scale=scale, rotation=[0.5, 0.1, 0.7, 0.5])
+    source = read("m.glb", gltf.glb())
+    assert source.normals is not None
+    a, b, c = source.positions[0]
+    faces = np.cross(b - a, c - a)
+    for turned in source.normals[0]:
+        np.testing.assert_allclose(turned / np.linalg.norm(turned), faces / np.linalg.norm(faces), atol=1e-6)
+
+
 def test_strips_fans_and_sparse_accessors(read: Read) -> None:
     points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 2, 0)], dtype=np.float32)
     gltf = Gltf()
@@ -215,12 +232,12 @@ def test_texture_transforms_are_applied(read: Read) -> None:
 def test_what_is_left_out_is_named(read: Read) -> None:
     gltf = Gltf()
     points = gltf.accessor(MODEL.positions, "f4")
-    see_through = gltf.material(alphaMode="BLEND", doubleSided=True)
+    see_through = gltf.material(alphaMode="BLEND", doubleSided=True, emissiveFactor=[0, 0.5, 0])
     target = {"targets": [{"POSITION": points}], "material": see_through}
     gltf.node({"attributes": {"POSITION": points}, "mode": 0}, gltf.primitive(MODEL, **target), skin=0)
     gltf.json |= {"skins": [{"joints": [0]}], "animations": [{}]}
     told = " / ".join(read("m.glb", gltf.glb()).notes)
-    for word in ("points or lines", "morph targets", "skin", "animations"):
+    for word in ("points or lines", "morph targets", "skin", "animations", "paint 0: its glow"):
         assert word in told
 
 

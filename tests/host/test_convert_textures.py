@@ -9,6 +9,7 @@ import json
 import re
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -288,7 +289,7 @@ def test_materials_of_gltf_in_the_header(tmp_path: Path, capsys: pytest.CaptureF
     convert(glb(tmp_path, alphaMode="BLEND", doubleSided=True), "-o", tmp_path / "m.h")
     assert "note: paint 0: it is blended; draw it after all that is opaque" in capsys.readouterr().out
     text = (tmp_path / "m.h").read_text()
-    assert "    .flags = EL_MATERIAL_TWO_SIDED,\n    .colour = {200, 200, 200},\n    .alpha = 128,\n" in text
+    assert "    .flags = EL_MATERIAL_TWO_SIDED,\n    .colour = {255, 255, 255},\n    .alpha = 128,\n" in text
     assert "    .texture = &m_texture,\n" in text
     convert(glb(tmp_path), "-o", tmp_path / "m.h")
     text = (tmp_path / "m.h").read_text()
@@ -365,3 +366,46 @@ def test_the_same_bytes_in_another_process(edgeline: Edgeline, tmp_path: Path) -
                 assert edgeline("convert", *words, env={"PYTHONHASHSEED": seed}).returncode == 0
                 made.append((tmp_path / output).read_bytes())
             assert made[0] == made[1]
+
+
+def test_texels_are_multiplied_by_vertex_colours(tmp_path: Path) -> None:
+    """Those of a model that has both; white ones are left out."""
+
+    def header(colours: Bytes) -> str:
+        model = replace(ring(6, 4), colours=colours)
+        gltf = Gltf()
+        paint = gltf.material(image={"bufferView": gltf.view(checks()), "mimeType": "image/png"})
+        gltf.node(gltf.primitive(model, attributes="ptc", material=paint))
+        (tmp_path / "m.glb").write_bytes(gltf.glb())
+        convert(tmp_path / "m.glb", "-o", tmp_path / "m.h")
+        return (tmp_path / "m.h").read_text()
+
+    colours = np.full_like(ring(6, 4).colours, 255)
+    text = header(colours)
+    assert ".shading = EL_SHADE_TEXTURED," in text and ".colours" not in text
+    colours[-1] = 200, 255, 255
+    text = header(colours)
+    assert ".shading = EL_SHADE_TEXTURED_GOURAUD," in text and ".colours = m_colours," in text
+
+
+def test_a_texture_stands_in_the_place_of_colours_where_the_format_has_no_product(tmp_path: Path) -> None:
+    """A scan's PLY or OBJ has the same colours twice: at its vertices, and in its picture."""
+    (tmp_path / "t.png").write_bytes(checks())
+    (tmp_path / "m.mtl").write_text("newmtl a\nmap_Kd t.png\n")
+    corners = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    (tmp_path / "m.obj").write_text(f"mtllib m.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\n")
+    convert(tmp_path / "m.obj", "-o", tmp_path / "m.h")
+    assert ".colours" not in (tmp_path / "m.h").read_text()
+    convert(tmp_path / "m.obj", "--no-texture", "-o", tmp_path / "m.h")
+    assert ".colours = m_colours," in (tmp_path / "m.h").read_text()
+
+
+def test_colours_of_materials_at_vertices_are_those_without_a_texture(tmp_path: Path) -> None:
+    (tmp_path / "t.png").write_bytes(checks())
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 0.5 0 0\nmap_Kd t.png\nnewmtl b\nKd 0 1 0\n")
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    (tmp_path / "m.obj").write_text(f"mtllib m.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1 3 2\n")
+    convert(tmp_path / "m.obj", "--vertex-colours", "-o", tmp_path / "m.h")
+    text = (tmp_path / "m.h").read_text()
+    assert "m_a_colours" not in text and ".shading = EL_SHADE_TEXTURED," in text
+    assert "m_b_colours[3][3] = {\n{0,255,0},{0,255,0},{0,255,0}," in text

@@ -104,6 +104,14 @@ def gltf_beside(folder: Path) -> Path:
     return folder / "ring.gltf"
 
 
+def coloured() -> Gltf:
+    """A texture times vertex colours."""
+    gltf = Gltf()
+    paint = gltf.material(image={"bufferView": gltf.view(checks()), "mimeType": "image/png"})
+    gltf.node(gltf.primitive(MODEL, "u4", "ptc", material=paint))
+    return gltf
+
+
 CASES: dict[str, tuple[Callable[[Path], Path], list[str]]] = {
     "obj": (house, ["--texture-size", "16", "--no-clusters"]),
     "stl": (written("ring.stl", stl_binary(MODEL)), ["--up", "z"]),
@@ -112,6 +120,8 @@ CASES: dict[str, tuple[Callable[[Path], Path], list[str]]] = {
     "ply-textured": (written("ring.ply", ply(MODEL, "", "fields.png", True)), ["--panel", "st7735"]),
     "glb": (written("scene.glb", scene().glb()), ["--panel", "ili9341", "--texture-size", "16"]),
     "obj-palette": (house, ["--texture-format", "palette4", "--texture-size", "16", "--mipmaps", "--crease", "0"]),
+    "glb-coloured": (written("ring.glb", coloured().glb()), ["--texture-size", "16"]),
+    "obj-lit": (house, ["--shading", "lit", "--texture-size", "16", "--crease", "0"]),
     "glb-alpha": (written("panes.glb", panes().glb()), ["--texture-size", "16"]),
     "gltf": (gltf_beside, ["--texture-size", "16"]),
 }
@@ -175,7 +185,8 @@ def test_what_is_wrong_gets_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert refused("preview", tmp_path / "m.stl", "-o", "x.jpg") == "-o x.jpg: the picture is a PNG; name it so"
     told = refused("preview", tmp_path / "m.stl", "-o", output, "--panel", "st7735", "--size", "200x200")
     assert told.startswith("the simulator: ") and "larger than the st7735" in told
-    assert refused("preview", tmp_path / "m.stl", "-o", output, "--shading", "textured").startswith("the simulator: ")
+    told = refused("preview", tmp_path / "m.stl", "-o", output, "--shading", "textured")
+    assert told.startswith("the simulator: edgeline-sim: m has no texture: ")
     monkeypatch.setenv("EDGELINE_SIM", str(tmp_path / "absent"))
     assert "there is no such file; build the simulator, or unset it" in refused("preview", tmp_path / "m.stl")
     monkeypatch.delenv("EDGELINE_SIM")

@@ -26,11 +26,12 @@ uint32_t el_round_points(int32_t rx, int32_t ry);
 void el_polygon_ellipse(el_polygon *polygon, int32_t x, int32_t y, int32_t rx, int32_t ry);
 
 /* A piece of pie, or of a ring if `inner` is above 0: from `from` on over `sweep`, clockwise on the screen; angle 0 points
- * to the right. A whole ring is two circles instead, with EL_EVEN_ODD. */
+ * to the right. A whole ring is two circles instead, with EL_EVEN_ODD. Of `inner` not below `outer` nothing is filled. */
 void el_polygon_sector(el_polygon *polygon, int32_t x, int32_t y, int32_t outer, int32_t inner, el_angle from,
                        el_angle sweep);
 
-/* A rectangle [x, x_end) x [y, y_end); its corners are rounded by at most half of its shorter side. */
+/* A rectangle [x, x_end) x [y, y_end), none where an end is not beyond its beginning; its corners are rounded by at most
+ * half of its shorter side. */
 void el_polygon_rectangle(el_polygon *polygon, int32_t x, int32_t y, int32_t x_end, int32_t y_end, int32_t radius);
 
 #ifdef __cplusplus

@@ -216,8 +216,10 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
  * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or with a texture or an image of another size,
  * format or chain than geometry/mesh.h has; a light without normals; EL_MATERIAL_BLEND_DEPTH of what is blended with
- * el_config.depth_prepass; fog that was not made, without depth or with an orthographic camera; or what base/options.h leaves out. EL_ERROR_RANGE: the pose or the mesh leaves the world, or the mesh is too large for so narrow a view;
- * EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
+ * el_config.depth_prepass; fog that was not made, without depth or with an orthographic camera; EL_MATERIAL_WIRES of
+ * what is not flat, is blended or in fog, or with several samples or stripes; EL_SHADE_OVERDRAW with several samples; or
+ * what base/options.h leaves out. EL_ERROR_RANGE: the pose or the mesh leaves the world, or the mesh is too large for so
+ * narrow a view. EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
  * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);
 

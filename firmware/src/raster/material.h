@@ -66,7 +66,8 @@ typedef struct el_material {
     uint8_t alpha; /* 0 and 255: opaque */
 #endif
     const el_texture *texture; /* for the textured shadings */
-    const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. */
+    const el_light *light;     /* NULL: colours as they are. Needs a mesh with normals. Not for EL_SHADE_TEXTURED, whose
+                                  texels are as they are: EL_SHADE_TEXTURED_GOURAUD is texels in a light */
 #if EL_WITH_MIXED
     const struct el_fog *fog; /* NULL: none. Of what is drawn with depth, for a perspective camera (fog.h) */
 #endif

@@ -5,7 +5,6 @@ The text of a header depends on the font, the words given and the version of Fre
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
@@ -15,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import ImageFont, features
 
-from edgeline.convert.header import wrap
+from edgeline.convert.header import whole_header, wrap
 from edgeline.errors import EdgelineError
 
 MAX_SIZE = 120
@@ -184,15 +183,12 @@ def font_header(name: str, about: Sequence[str], font: Font) -> str:
         for place, glyph in zip(places, font.glyphs.values(), strict=False)
     ]
     kerns = sorted((numbers[before], numbers[after], by) for (before, after), by in font.kerns.items())
-    guard = f"FONT_{name.upper()}_H"
     flash = len(bits) + 12 * len(glyphs) + 8 * len(ranges) + 6 * len(kerns)
     summary = (
         f"{name}: {font.family}, {font.size} pixels, {len(glyphs):,} characters, {font.bits} bits per pixel, "
         f"{len(kerns):,} pairs, {flash:,} bytes."
     )
-    comment = "\n * ".join(re.sub(r"\*/", "* /", text) for text in (*about, summary))
-    lines = [f"/* {comment} */", f"#ifndef {guard}", f"#define {guard}", "", '#include "edgeline.h"', ""]
-    lines += ["/* clang-format off */", f"static const uint8_t {name}_bits[{len(bits)}] = {{"]
+    lines = [f"static const uint8_t {name}_bits[{len(bits)}] = {{"]
     lines += [*wrap(map(str, bits)), "};", f"static const el_glyph {name}_glyphs[{len(glyphs)}] = {{"]
     lines += [*wrap(glyphs), "};", f"static const el_font_range {name}_ranges[{len(ranges)}] = {{"]
     lines += [*wrap(f"{{{first},{count},{glyph}}}" for first, count, glyph in ranges), "};"]
@@ -212,9 +208,5 @@ def font_header(name: str, about: Sequence[str], font: Font) -> str:
         f"    .descent = {font.descent},",
         f"    .line_height = {font.line_height},",
         "};",
-        "/* clang-format on */",
-        "",
-        "#endif",
-        "",
     ]
-    return "\n".join(lines)
+    return whole_header(f"FONT_{name.upper()}_H", [*about, summary], lines)

@@ -1,6 +1,6 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations. Refused: extensions that a
+Left out, each with a note: points and lines, skins, morph targets, animations, what glows. Refused: extensions that a
 file requires and that are not known here, compression above all.
 """
 
@@ -142,6 +142,8 @@ class _Reader:
         if mode not in ALPHAS:
             raise file.error(f"{where}: 'alphaMode' is {mode:.20}")
         two_sided = file.value(material, where, "doubleSided", bool, False)
+        if any(file.numbers(material, where, "emissiveFactor", [0.0] * 3)):
+            self.note(f"{name}: its glow is left out; el_lighting.emissive makes surfaces glow")
         surface = file.value(material, where, "pbrMetallicRoughness", dict, {})
         red, green, blue, opacity = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
         opacity = min(max(opacity, 0.0), 1.0)
@@ -242,7 +244,7 @@ class _Reader:
             if np.linalg.det(linear) < 0:  # a mirror turns the winding around
                 corners = corners[:, ::-1]
             if normals is not None:
-                normals = np.nan_to_num(normals @ _cofactors(linear).T, posinf=0.0, neginf=0.0)
+                normals = np.nan_to_num(normals @ _normal_matrix(linear).T, posinf=0.0, neginf=0.0)
         return Piece(
             where,
             material,
@@ -293,9 +295,11 @@ class _Reader:
         return np.asarray(uvs + material.offset)
 
 
-def _cofactors(m: Floats) -> Floats:
-    """The inverse transposed times the determinant, which normals are turned by; defined for every matrix."""
-    return np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
+def _normal_matrix(m: Floats) -> Floats:
+    """The inverse transposed, by which normals are turned, times the determinant's magnitude: defined for every
+    matrix, and in a mirror what looked outwards still does."""
+    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
+    return cofactors if np.linalg.det(m) >= 0 else -cofactors
 
 
 def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> Source:
@@ -348,6 +352,7 @@ def _source(reader: _Reader, pieces: list[Piece]) -> Source:
             normals=_joined([piece.normals for piece in pieces], counts, 3, 0.0),
             uvs=_joined([piece.uvs for piece in pieces], counts, 2, np.nan),
             colours=_vertex_colours(pieces),
+            tints=True,
             triangle_colours=_triangle_colours(pieces, counts),
             notes=tuple(reader.notes),
         )

@@ -21,7 +21,8 @@ from edgeline.errors import EdgelineError
 
 COLUMNS = 120
 PLAIN = 200, 200, 200
-"""The colour of what has none, in the simulator too."""
+WHITE = 255, 255, 255
+"""The colour of what has none, and of what has a texture, which leaves its texels as they are; in the simulator too."""
 
 RESERVED = re.compile(
     "auto|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|main|register"
@@ -53,7 +54,7 @@ class NamedMesh:
     def shading(self) -> str:
         """The dearest that the mesh has what it takes for, as the simulator chooses it too."""
         if self.texture is not None:
-            return "textured"
+            return "textured" if self.mesh.colours is None else "textured_gouraud"
         return "flat" if self.mesh.triangle_colours is not None and self.mesh.colours is None else "gouraud"
 
 
@@ -107,12 +108,17 @@ def values_lines(c_type: str, name: str, values: npt.NDArray[np.generic]) -> lis
     return [f"static const {c_type} {name}[{values.size}] = {{", *wrap(items), "};"]
 
 
-def image_lines(name: str, palette: str, level: Texture) -> list[str]:
-    """The el_image `name`_image of texels `name`_texels."""
+def texel_lines(name: str, level: Texture) -> list[str]:
+    texels = level.packed()
+    return values_lines("uint16_t" if texels.dtype == np.uint16 else "uint8_t", f"{name}_texels", texels)
+
+
+def image_lines(image: str, name: str, palette: str, level: Texture) -> list[str]:
+    """The el_image `image` of texels `name`_texels."""
     height, width = level.texels.shape
     lines = [] if level.alpha is None else values_lines("uint8_t", f"{name}_alpha", level.alpha.reshape(-1))
     lines += [
-        f"static const el_image {name}_image = {{",
+        f"static const el_image {image} = {{",
         f"    .width = {width},",
         f"    .height = {height},",
         f"    .format = EL_IMAGE_{level.format.name},",
@@ -130,10 +136,9 @@ def image_lines(name: str, palette: str, level: Texture) -> list[str]:
 def level_lines(name: str, palette: str, smaller: str | None, level: Texture) -> list[str]:
     """The arrays and the el_texture `name`_texture of one level. Members that only some textures need are left out
     else, as small code has none of them."""
-    texels = level.packed()
-    lines = values_lines("uint16_t" if texels.dtype == np.uint16 else "uint8_t", f"{name}_texels", texels)
+    lines = texel_lines(name, level)
     if level.is_image:
-        lines += image_lines(name, palette, level)
+        lines += image_lines(f"{name}_image", name, palette, level)
     lines += [f"static const el_texture {name}_texture = {{"]
     if not level.is_image:
         lines += [
@@ -153,10 +158,14 @@ def level_lines(name: str, palette: str, smaller: str | None, level: Texture) ->
     return [*lines, "};"]
 
 
+def palette_lines(palette: str, texture: Texture) -> list[str]:
+    return values_lines("uint16_t", palette, texture.palette) if texture.format != Format.RGB565 else []
+
+
 def texture_lines(name: str, texture: Texture) -> list[str]:
     """The smallest level first, as each names the next one."""
     palette = f"{name}_palette"
-    lines = values_lines("uint16_t", palette, texture.palette) if texture.format != Format.RGB565 else []
+    lines = palette_lines(palette, texture)
     smaller = None
     for number, level in reversed([*enumerate(texture.levels())]):
         own = f"{name}_level{number}" if number > 0 else name
@@ -173,7 +182,7 @@ def material_lines(named: NamedMesh, look: Look) -> list[str]:
     if look.two_sided:
         lines += ["    .flags = EL_MATERIAL_TWO_SIDED,"]
     if named.mesh.colours is None and named.mesh.triangle_colours is None:
-        lines += [f"    .colour = {{{', '.join(map(str, PLAIN))}}},"]
+        lines += [f"    .colour = {{{', '.join(map(str, PLAIN if named.texture is None else WHITE))}}},"]
     if look.opacity != 255:
         lines += [f"    .alpha = {look.opacity},"]
     if named.texture is not None:
@@ -246,16 +255,24 @@ def summary(named: NamedMesh) -> str:
     return text + "."
 
 
+def whole_header(guard: str, about: Sequence[str], lines: Iterable[str]) -> str:
+    """The text of a header that includes only `edgeline.h`; `about` is its opening comment."""
+    comment = "\n * ".join(text.replace("*/", "* /") for text in about)
+    head = [f"/* {comment} */", f"#ifndef {guard}", f"#define {guard}", "", '#include "edgeline.h"', ""]
+    return "\n".join([*head, "/* clang-format off */", *lines, "/* clang-format on */", "", "#endif", ""])
+
+
+def image_header(name: str, about: Sequence[str], picture: Texture) -> str:
+    """A picture of any size as `static const el_image NAME`."""
+    palette = f"{name}_palette"
+    lines = [*palette_lines(palette, picture), *texel_lines(name, picture), *image_lines(name, name, palette, picture)]
+    return whole_header(f"IMAGE_{name.upper()}_H", about, lines)
+
+
 def c_header(name: str, about: Sequence[str], meshes: Sequence[NamedMesh]) -> str:
-    """The text of a header that includes only `edgeline.h`.
+    """The meshes with what belongs to them.
 
     `name` becomes the include guard, `about` (what it shows, what made it) the opening comment, before the counts.
     """
-    guard = f"MESH_{name.upper()}_H"
-    comment = [*about, *map(summary, meshes)]
-    lines = ["/* " + "\n * ".join(text.replace("*/", "* /") for text in comment) + " */"]
-    lines += [f"#ifndef {guard}", f"#define {guard}", "", '#include "edgeline.h"', "", "/* clang-format off */"]
-    for named in meshes:
-        lines += mesh_lines(named)
-    lines += ["/* clang-format on */", "", "#endif", ""]
-    return "\n".join(lines)
+    lines = [line for named in meshes for line in mesh_lines(named)]
+    return whole_header(f"MESH_{name.upper()}_H", [*about, *map(summary, meshes)], lines)

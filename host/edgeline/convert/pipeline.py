@@ -129,7 +129,11 @@ def coloured(source: Source, args: argparse.Namespace) -> Source:
         notes = (*notes, "texture coordinates are left out, as there is no texture; give one with --texture")
         source = replace(source, uvs=None)
     if args.vertex_colours and source.colours is None and source.triangle_colours is not None:
-        source = replace(source, colours=np.repeat(source.triangle_colours[:, None], 3, axis=1), triangle_colours=None)
+        colours = np.repeat(source.triangle_colours[:, None], 3, axis=1)
+        source = replace(source, colours=colours, tints=False, triangle_colours=None)  # pictures have their factors
+    if source.colours is not None and not source.tints:
+        plain = np.array([part.picture is None for part in source.parts])[source.part_of]
+        source = replace(source, colours=np.where(plain[:, None, None], source.colours, np.uint8(255)))
     return replace(source, notes=notes)
 
 

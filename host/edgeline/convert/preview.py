@@ -45,8 +45,9 @@ def add_parser(subparsers: SubParsers) -> None:
     parser.add_argument("--size", metavar="WxH", help="of the picture")
     parser.add_argument(
         "--shading",
-        choices=("flat", "gouraud", "textured"),
-        help="default: textured with textures, smooth with normals, flat with colours of triangles",
+        choices=("flat", "gouraud", "textured", "lit"),
+        help="default: textured with textures, times vertex colours if there are any, smooth with normals, flat with "
+        "colours of triangles; lit: the same, with textures in a light, too",
     )
     parser.add_argument("--eye", metavar="X,Y,Z", help="where the camera stands (default: where all is seen)")
     parser.add_argument("--look-at", metavar="X,Y,Z", help="where it looks (default: the middle)")
@@ -81,15 +82,17 @@ def run(args: argparse.Namespace) -> int:
     words = [simulator, "render"]
     with tempfile.TemporaryDirectory(prefix="edgeline-preview-") as folder:
         picture = Path(folder) / "preview.png"
+        names = {}
         for i, one in enumerate(result.meshes):
             path = Path(folder) / f"{i}.elm"
             path.write_bytes(elm.encode(one.mesh, one.texture, one.material))
             words += ["--mesh", str(path)]
+            names[str(path)] = one.name
         for option in PASSED_ON:
             value = getattr(args, option)
             if value is not None:
                 words += [f"--{option.replace('_', '-')}", value]
-        _render([*words, "--png", str(picture)])
+        _render([*words, "--png", str(picture)], names)
         write_whole(args.output, read_bytes(picture))
     for note in result.notes:
         print(f"note: {note}")
@@ -97,11 +100,15 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _render(words: list[str]) -> None:
+def _render(words: list[str], names: dict[str, str]) -> None:
+    """Raises EdgelineError; `names` are those of the meshes in files that only this command knows."""
     try:
         done = subprocess.run(words, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     except (OSError, subprocess.SubprocessError) as error:
         raise EdgelineError(f"{words[0]}: the simulator does not run ({error}); build it anew") from error
     if done.returncode != 0:
         lines = done.stderr.splitlines() or [f"it ended with status {done.returncode}"]
-        raise EdgelineError(f"the simulator: {lines[0]}")
+        line = lines[0]
+        for path, name in names.items():
+            line = line.replace(path, name)
+        raise EdgelineError(f"the simulator: {line}")

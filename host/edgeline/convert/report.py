@@ -60,7 +60,11 @@ def is_mixed(meshes: list[NamedMesh]) -> bool:
     """Whether one is drawn by what is slower than the laws that the estimate is made of."""
     textures = [level for one in meshes if one.texture is not None for level in one.texture.levels()]
     looks = [one.material for one in meshes if one.material is not None]
-    return any(t.is_image or t.smooth or any(t.wrap) for t in textures) or any(look.opacity < 255 for look in looks)
+    return (
+        any(t.is_image or t.smooth or any(t.wrap) for t in textures)
+        or any(look.opacity < 255 for look in looks)
+        or any(one.texture is not None and one.mesh.colours is not None for one in meshes)
+    )
 
 
 def mesh_facts(named: NamedMesh, error: ColourError | None) -> Facts:

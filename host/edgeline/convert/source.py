@@ -73,6 +73,7 @@ class Source:
     normals: Floats | None = None  # (m, 3 corners, 3), of any length
     uvs: Floats | None = None  # (m, 3 corners, 2) in repetitions of the image, v down
     colours: npt.NDArray[np.uint8] | None = None  # (m, 3 corners, 3)
+    tints: bool = False  # the format says that a picture is multiplied by `colours`; else it stands in their place
     triangle_colours: npt.NDArray[np.uint8] | None = None  # (m, 3)
     notes: tuple[str, ...] = ()
 
@@ -192,13 +193,15 @@ def fitted_wrap(source: Source, style: Style, sides: tuple[int, int]) -> tuple[S
 def soup_of(source: Source, texture: Texture | None) -> Soup:
     """The triangles of a source with one part. Raises EdgelineError for what cannot be met.
 
-    Texture coordinates are kept when there is a texture, colours of triangles when there is none.
+    Texture coordinates are kept when there is a texture, colours of triangles when there is none; colours of vertices,
+    which texels are multiplied by, when one of them is not white.
     """
+    is_white = texture is not None and source.colours is not None and bool(np.all(source.colours == 255))
     return Soup(
         positions=source.positions,
         normals=source.normals,
         uvs=None if texture is None else texel_coordinates(source, texture),
-        colours=source.colours,
+        colours=None if is_white else source.colours,
         triangle_colours=source.triangle_colours if texture is None else None,
     )
 

@@ -51,7 +51,7 @@ class Wrap(IntEnum):
 
 @dataclass(frozen=True)
 class Texture:
-    """A picture of `texels`, shape (height, width), both powers of two up to 1024; row 0 on top.
+    """A picture of `texels`, shape (height, width), both powers of two up to 1024, or of any size; row 0 on top.
 
     Texels are colours in RGB565, or indices of `palette`, or a mask's bits. `key` is the value that is not drawn.
     """
@@ -63,13 +63,16 @@ class Texture:
     key: int | None = None
     wrap: tuple[Wrap, Wrap] = (Wrap.REPEAT, Wrap.REPEAT)
     smooth: bool = False
+    any_size: bool = False
+    """Drawn as a sprite, too: always an `el_image`, without smaller ones."""
     smaller: Texture | None = None
     """Half as large, of the same format, with the same palette, key, wrap and smoothness; alpha if this has alpha."""
 
     def __post_init__(self) -> None:
         if self.texels.dtype != np.uint16 or self.texels.ndim != 2:
             raise EdgelineError("a texture has to be a two-dimensional array of uint16")
-        if any(side not in {1 << log2 for log2 in range(MAX_TEXTURE_LOG2 + 1)} for side in self.texels.shape):
+        sides = {1 << log2 for log2 in range(MAX_TEXTURE_LOG2 + 1)}
+        if not self.any_size and any(side not in sides for side in self.texels.shape):
             height, width = self.texels.shape
             raise EdgelineError(f"a texture of {width}x{height}: both sides have to be powers of two, 1024 at most")
         if self.palette.shape != (self.format.colours,) or int(self.texels.max()) >> self.format.bits != 0:
@@ -88,7 +91,7 @@ class Texture:
     @property
     def is_image(self) -> bool:
         """Whether it takes an `el_image`, or else bare texels do."""
-        return self.format != Format.RGB565 or self.alpha is not None or self.key is not None
+        return self.any_size or self.format != Format.RGB565 or self.alpha is not None or self.key is not None
 
     @property
     def is_plain(self) -> bool:

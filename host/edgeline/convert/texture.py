@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
@@ -45,12 +45,13 @@ class Style:
     cutoff: float = 0.5
     wrap: tuple[Wrap, Wrap] = (Wrap.REPEAT, Wrap.REPEAT)
     smooth: bool = False
+    any_size: bool = False
 
 
 @dataclass(frozen=True)
 class Pixels:
-    """8-bit sRGB colours (height, width, 3), both sides powers of two; alpha (height, width), if asked for, of an image
-    that has any.
+    """8-bit sRGB colours (height, width, 3), both sides powers of two or as they were; alpha (height, width), if asked
+    for, of an image that has any.
 
     `is_clear`: the image has transparent places, whether or not they were asked for.
     """
@@ -97,15 +98,17 @@ def _has_clear_places(image: Image.Image) -> bool:
 
 
 def load_pixels(
-    image_file: Path | bytes, limit: int, factor: Factor = (1.0, 1.0, 1.0), with_alpha: bool = False
+    image_file: Path | bytes, limit: int | None, factor: Factor = (1.0, 1.0, 1.0), with_alpha: bool = False
 ) -> Pixels:
-    """The image with sides of at most `limit` texels. Raises EdgelineError when there is no image."""
+    """The image with sides of at most `limit` texels; None: as it is. Raises EdgelineError when there is no image."""
     name = str(image_file) if isinstance(image_file, Path) else "what is embedded"
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(image_file if isinstance(image_file, Path) else io.BytesIO(image_file)) as image:
-                size = power_of_two_near(image.width, limit), power_of_two_near(image.height, limit)
+                size = image.size
+                if limit is not None:
+                    size = power_of_two_near(image.width, limit), power_of_two_near(image.height, limit)
                 clear = _has_clear_places(image)
                 picture = image.convert("RGBA" if with_alpha else "RGB")
         if picture.size != size:
@@ -170,7 +173,8 @@ def _mask(pictures: list[Pixels], style: Style) -> Texture:
         raise EdgelineError("nothing of the image shows as a mask; give it alpha or bright places")
     mean = np.searchsorted(BETWEEN_Q16, LIGHT_Q16[shown].sum(axis=0) // len(shown), side="right")
     ink = rgb565(mean[None].astype(np.uint8))
-    return linked([Texture(v, Format.MASK, ink, wrap=style.wrap, smooth=style.smooth) for v in values])
+    plain = Texture(values[0], Format.MASK, ink, wrap=style.wrap, smooth=style.smooth, any_size=style.any_size)
+    return linked([replace(plain, texels=v) for v in values])
 
 
 def textured(pixels: Pixels, style: Style) -> Texture:
@@ -202,7 +206,10 @@ def textured(pixels: Pixels, style: Style) -> Texture:
         if has_key:
             values[~drawn] = key
         alpha = one.alpha if blended else None
-        levels.append(Texture(values, style.format, palette, alpha, key if has_key else None, style.wrap, style.smooth))
+        own_key = key if has_key else None
+        levels.append(
+            Texture(values, style.format, palette, alpha, own_key, style.wrap, style.smooth, any_size=style.any_size)
+        )
     return linked(levels)
 
 
