@@ -108,6 +108,25 @@ def test_a_missing_library_is_only_noted(quad: Path, capsys: pytest.CaptureFixtu
     assert "quad.mtl is not there" in notes[0]
 
 
+def test_files_with_another_computer_s_paths_are_found_beside_the_model(
+    quad: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    convert(quad, "-o", quad.with_suffix(".elm"))
+    expected = quad.with_suffix(".elm").read_bytes()
+    quad.write_text(quad.read_text().replace("mtllib quad.mtl", "mtllib C:\\gone\\quad.mtl"))
+    library = quad.with_suffix(".mtl")
+    library.write_text(library.read_text().replace("map_Kd ", "map_Kd /gone/"))
+    (quad.parent / "textures" / "wood.png").rename(quad.parent / "wood.png")
+    capsys.readouterr()
+    assert convert(quad, "-o", quad.with_suffix(".elm")) == 0
+    assert quad.with_suffix(".elm").read_bytes() == expected
+    notes = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert [note.split("note: ")[1].split(" is not there; ")[0] for note in notes] == [
+        "C:\\gone\\quad.mtl",
+        "/gone/textures\\wood.png",
+    ]
+
+
 def test_missing_and_broken_files(quad: Path) -> None:
     folder, output = quad.parent, quad.with_suffix(".h")
     output.write_text("precious")

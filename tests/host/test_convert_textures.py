@@ -295,6 +295,15 @@ def test_materials_of_gltf_in_the_header(tmp_path: Path, capsys: pytest.CaptureF
     assert ".flags" not in text and ".alpha" not in text and ".image" not in text and ".wrap" not in text
 
 
+def test_options_of_textures_that_do_nothing_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = glb(tmp_path)
+    convert(model, "-o", tmp_path / "m.h", "--no-texture", "--texture-format", "palette4", "--mipmaps", "--up", "z")
+    assert "note: there is no texture, so nothing comes of --texture-format, --mipmaps\n" in capsys.readouterr().out
+    convert(model, "-o", tmp_path / "m.h", "--texture-format", "palette4", "--mipmaps")
+    convert(model, "-o", tmp_path / "m.h", "--no-texture", "--up", "z")
+    assert "nothing comes of" not in capsys.readouterr().out
+
+
 def test_materials_of_mtl(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     alpha = np.full((SIDE, SIDE), 200, np.uint8)
     Image.fromarray(np.dstack([smooth_picture(), alpha])).save(tmp_path / "image.png")

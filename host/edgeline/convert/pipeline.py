@@ -72,12 +72,23 @@ def read_bytes(path: Path) -> bytes:
         raise EdgelineError(f"cannot read {path}: {error.strerror or error}") from error
 
 
+def file_beside(path: Path, name: str, notes: list[str]) -> Path:
+    """The file that the model at `path` names; where that is not there, as on another computer, the one of that name in
+    the model's own folder, if there is one, which is noted."""
+    named = path.parent / name.replace("\\", "/")
+    near = path.parent / named.name
+    if named.exists() or not near.is_file():
+        return named
+    notes.append(f"{name} is not there; {near.name} beside the model is taken")
+    return near
+
+
 def read_materials(path: Path, model: ObjModel, notes: list[str]) -> tuple[dict[str, Material], dict[str, str]]:
     """The materials of all libraries that the model names, and the library of each. A missing one is only noted."""
     materials: dict[str, Material] = {}
     library_of: dict[str, str] = {}
     for _, name in model.libraries:
-        library = path.parent / name.replace("\\", "/")
+        library = file_beside(path, name, notes)
         if not library.is_file():
             notes.append(f"the material library {name} is not there; its colours and textures are left out")
             continue
@@ -97,12 +108,13 @@ def read_obj(path: Path) -> Source:
 
     def picture_of(material: str) -> Picture:
         found = materials[material]
-        image = path.parent / (found.image or "").replace("\\", "/")
+        image = file_beside(path, found.image or "", notes)
         wrap = Wrap.CLAMP if found.clamps else Wrap.REPEAT
         alpha = Alpha.BLEND if found.has_alpha else Alpha.NONE
         return Picture(f"{library_of[material]}:{found.line}: map_Kd", image, wrap=(wrap, wrap), alpha=alpha)
 
-    return source_from(model, materials, picture_of, tuple(notes))
+    source = source_from(model, materials, picture_of)
+    return replace(source, notes=(*dict.fromkeys(notes), *source.notes))
 
 
 def read_source(path: Path) -> Source:
