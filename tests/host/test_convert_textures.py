@@ -295,6 +295,24 @@ def test_materials_of_gltf_in_the_header(tmp_path: Path, capsys: pytest.CaptureF
     assert ".flags" not in text and ".alpha" not in text and ".image" not in text and ".wrap" not in text
 
 
+def test_what_a_file_says_in_vain_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    gltf = Gltf()
+    paint = gltf.material([1, 0, 0, 1], emissiveFactor=[0, 0.5, 0])
+    gltf.node(gltf.primitive(ring(6, 4), attributes="p", material=paint))
+    gltf.json["extensionsUsed"] = ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"]
+    (tmp_path / "m.glb").write_bytes(gltf.glb())
+    convert(tmp_path / "m.glb", "-o", tmp_path / "m.h")
+    notes = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert notes == [
+        "  note: paint 0: its own light is left out",
+        "  note: what KHR_materials_pbrSpecularGlossiness says is left out",
+    ]
+    for glow, told in (("0 0 0", False), ("0 0 1", True)):
+        square(tmp_path, (0, 2), f"Ke {glow}")
+        convert(tmp_path / "m.obj", "-o", tmp_path / "m.h", "--no-texture")
+        assert ("note: paint: its own light is left out" in capsys.readouterr().out) == told
+
+
 def test_options_of_textures_that_do_nothing_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     model = glb(tmp_path)
     convert(model, "-o", tmp_path / "m.h", "--no-texture", "--texture-format", "palette4", "--mipmaps", "--up", "z")

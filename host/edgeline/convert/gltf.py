@@ -1,7 +1,7 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations. Refused: extensions that a
-file requires and that are not known here, compression above all.
+Left out, each with a note: points and lines, skins, morph targets, animations, surfaces' own light, extensions that are
+not known here. Refused: those of them that a file requires, compression above all.
 """
 
 from __future__ import annotations
@@ -141,6 +141,8 @@ class _Reader:
         mode = file.value(material, where, "alphaMode", str, "OPAQUE")
         if mode not in ALPHAS:
             raise file.error(f"{where}: 'alphaMode' is {mode:.20}")
+        if max(file.numbers(material, where, "emissiveFactor", [0.0] * 3)) > 0:
+            self.note(f"{name}: its own light is left out")
         two_sided = file.value(material, where, "doubleSided", bool, False)
         surface = file.value(material, where, "pbrMetallicRoughness", dict, {})
         red, green, blue, opacity = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
@@ -298,6 +300,11 @@ def _cofactors(m: Floats) -> Floats:
     return np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
 
 
+def unknown_extensions(file: GltfFile, key: str) -> list[str]:
+    names = map(str, file.value(file.json, "the file", key, list, []))
+    return [extension for extension in names if extension not in KNOWN_EXTENSIONS]
+
+
 def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> Source:
     """The triangles of the file's scene. Raises EdgelineError with the place for what cannot be meant."""
     file = open_gltf(name, data, read_beside)
@@ -305,8 +312,7 @@ def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> S
     version = file.value(asset, "asset", "version", str)
     if version.split(".")[0] != "2":
         raise EdgelineError(f"{name}: glTF version {version:.10}, this reads version 2; export the model as glTF 2.0")
-    required = file.value(file.json, "the file", "extensionsRequired", list, [])
-    unknown = [str(extension) for extension in required if extension not in KNOWN_EXTENSIONS]
+    unknown = unknown_extensions(file, "extensionsRequired")
     if unknown:
         raise EdgelineError(
             f"{name}: it needs {unknown[0]:.60}, which is not read; export it without compression or it"
@@ -315,6 +321,8 @@ def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> S
     pieces = list(reader.pieces())
     if "animations" in file.json:
         reader.note("animations are left out")
+    for extension in unknown_extensions(file, "extensionsUsed"):
+        reader.note(f"what {extension:.60} says is left out")
     if not any(len(piece.positions) for piece in pieces):
         raise EdgelineError(f"{name}: no triangle in its scene; is it a mesh of polygons?")
     return _source(reader, pieces)

@@ -95,6 +95,8 @@ def read_materials(path: Path, model: ObjModel, notes: list[str]) -> tuple[dict[
         found = parse_mtl(library.name, read_bytes(library))
         materials |= found
         for material, made in found.items():
+            if made.glows:
+                notes.append(f"{material}: its own light is left out")
             if made.clear_image is not None and not made.has_alpha:
                 notes.append(f"{material}: map_d is left out; what is clear has to be the alpha of map_Kd's own image")
         library_of |= dict.fromkeys(found, library.name)
