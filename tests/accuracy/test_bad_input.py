@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-import resource
 import signal
 import struct
 import subprocess
@@ -198,15 +196,9 @@ def test_an_older_output_outlives_an_error(fails: Fails, tmp_path: Path, option:
 @pytest.mark.parametrize("option", ["--png", "--raw", "--depth", "--wire"])
 def test_a_full_disk_is_said_and_leaves_nothing(simulator: Simulator, tmp_path: Path, option: str) -> None:
     """A limit on files stands in for it; Python ignores its signal, which the program takes over."""
-    done = subprocess.run(
-        [simulator.path, "render", "--scene", "room", option, tmp_path / "out"],
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)),
-        restore_signals=False,
-        capture_output=True,
-        text=True,
-        timeout=20,
-        check=False,
-    )
+    limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh"]
+    command = [*limited, str(simulator.path), "render", "--scene", "room", option, str(tmp_path / "out")]
+    done = subprocess.run(command, restore_signals=False, capture_output=True, text=True, timeout=20, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"edgeline-sim: cannot write {tmp_path / 'out'}: File too large\n"
     assert list(tmp_path.iterdir()) == []
@@ -217,9 +209,9 @@ def test_an_interruption_leaves_nothing_half_written(simulator: Simulator, tmp_p
     (tmp_path / "out.png").write_bytes(b"older picture")
     names = ["--png", str(tmp_path / "out.png"), "--raw", str(tmp_path / "out.rgb"), "--threads", "2"]
     command = [str(simulator.path), "render", "--scene", "S1", "--frames", "1000000", *names]
-    # What runs in the background may have been told to ignore some.
-    not_ignored = functools.partial(signal.signal, ending, signal.SIG_DFL)
-    with subprocess.Popen(command, preexec_fn=not_ignored, stderr=subprocess.PIPE, text=True) as running:
+    before = signal.signal(ending, signal.SIG_DFL)  # as a program inherits it where it is ignored
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as running:
+        signal.signal(ending, before)
         deadline = time.monotonic() + 20
         while len(list(tmp_path.iterdir())) < 3 and time.monotonic() < deadline:
             time.sleep(0.01)
