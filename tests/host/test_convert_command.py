@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,22 @@ def test_scale_and_centre(quad: Path) -> None:
     mesh, _ = elm.decode(quad.with_suffix(".elm").read_bytes())
     positions = np.ldexp(mesh.positions.astype(float), mesh.scale_log2)
     assert sorted(positions.tolist()) == [[-2, -2, 0], [-2, 2, 0], [2, -2, 0], [2, 2, 0]]
+
+
+def test_a_model_far_from_its_origin_is_told_of_centre(quad: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output, text = quad.with_suffix(".elm"), quad.read_text()
+
+    def moved(x: float) -> Path:
+        quad.write_text(re.sub(r"^v (\S+)", lambda v: f"v {float(v[1]) + x}", text, flags=re.MULTILINE))
+        return quad
+
+    convert(moved(2), "-o", output)
+    assert "--centre" not in capsys.readouterr().out
+    convert(moved(100), "-o", output)
+    assert "it is far from its origin; --centre makes its positions 128 times as fine\n" in capsys.readouterr().out
+    assert "no triangle is left with an area; give --centre" in refused("convert", moved(1e5), "-o", output)
+    convert(moved(1e5), "-o", output, "--centre")
+    assert "--centre" not in capsys.readouterr().out
 
 
 def test_headers_name_the_command_that_makes_them_again(quad: Path) -> None:

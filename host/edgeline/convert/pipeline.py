@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from edgeline.convert import elm
 from edgeline.convert.atlas import with_atlases
@@ -47,6 +48,9 @@ from edgeline.convert.stl import parse_stl
 from edgeline.convert.texels import Wrap
 from edgeline.convert.texture import Alpha, ColourError, Pixels, Style
 from edgeline.errors import EdgelineError
+
+NOTED_BITS = 3
+"""By so many bits finer, --centre is worth a note."""
 
 
 @dataclass(frozen=True)
@@ -169,11 +173,25 @@ def reduced(source: Source, args: argparse.Namespace, steps: Steps) -> tuple[Sou
     return source, None
 
 
+def scale_log2_of(source: Source) -> int:
+    return scale_log2_for(float(np.abs(source.positions).max()))
+
+
+def triangles_with_area(source: Source) -> npt.NDArray[np.bool_]:
+    """Which triangles have one when their positions are whole units."""
+    return has_area(np.rint(np.ldexp(source.positions, -scale_log2_of(source))))
+
+
+def centred(source: Source) -> Source:
+    return placed(source, "y", 1.0, centre=True)
+
+
 def meshes_of(
     source: Source, pixels: list[Pixels | None], style: Style, names: list[str], steps: Steps, *, clustered: bool
 ) -> Result:
     """A mesh of each part that has an area, named so; those that are blended last. Raises EdgelineError."""
-    scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
+    scale_log2 = scale_log2_of(source)
+    drawn = triangles_with_area(source)
     named: list[NamedMesh] = []
     found: list[Quantised] = []
     errors: list[ColourError | None] = []
@@ -182,7 +200,7 @@ def meshes_of(
         for i, part_name in in_drawing_order(source, names):
             rows = source.part_of == i
             done(1)
-            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
+            if not drawn[rows].any():
                 dropped += int(rows.sum())
                 continue
             part = source.parts[i]
@@ -193,6 +211,8 @@ def meshes_of(
             named.append(NamedMesh(part_name, mesh, texture, material=look_of(part)))
     counts = [len(one.mesh.triangles) for one in found]
     total = sum(counts)
+    if total == 0 and triangles_with_area(centred(source)).any():
+        raise EdgelineError("it is so far from its origin that no triangle is left with an area; give --centre")
     check_triangle_count(min(total, 1))
     before = sum(per_triangle(one.mesh) * count for one, count in zip(found, counts, strict=True)) / total
     squares = sum(one.position_rms**2 * count for one, count in zip(found, counts, strict=True)) / total
@@ -226,7 +246,10 @@ def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
     except EdgelineError as problem:
         text = str(problem)
         raise problem if text.startswith(source.name) else EdgelineError(f"{source.name}: {text}") from problem
-    return replace(result, notes=(*source.notes, *notes_of(source, pixels, args)), simplified=fewer)
+    notes = [*source.notes, *notes_of(source, pixels, args)]
+    if (bits := scale_log2_of(source) - scale_log2_of(centred(source))) >= NOTED_BITS:
+        notes.append(f"it is far from its origin; --centre makes its positions {1 << bits} times as fine")
+    return replace(result, notes=tuple(notes), simplified=fewer)
 
 
 def convert_elm(path: Path, name: str) -> Result:
