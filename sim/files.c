@@ -1,6 +1,7 @@
 #include "files.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -54,6 +55,85 @@ static void give_usual_mode(int descriptor)
     (void)fchmod(descriptor, 0666 & ~mask);
 }
 
+enum { MOST_UNDER_WAY = 8 };
+
+/* What a signal that ends the program has to remove. Only the main thread takes signals (threads.c), and blocks them while
+ * it changes this. */
+static char *volatile under_way[MOST_UNDER_WAY];
+
+static const int ending[] = {SIGHUP, SIGINT, SIGPIPE, SIGTERM};
+
+/* The handler is there for one signal: the one that it raises, which is blocked until it returns, ends the program. */
+static void remove_and_end(int signal_number)
+{
+    for (unsigned i = 0; i < MOST_UNDER_WAY; i++) {
+        if (under_way[i] != NULL) {
+            (void)unlink(under_way[i]);
+        }
+    }
+    (void)raise(signal_number);
+}
+
+/* Blocks the signals that end a program, and has those be taken that nobody else takes or ignores. */
+static void hold_signals(sigset_t *before)
+{
+    struct sigaction action = {.sa_handler = remove_and_end, .sa_flags = (int)SA_RESETHAND};
+    (void)sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++) {
+        (void)sigaddset(&action.sa_mask, ending[i]);
+    }
+    (void)sigprocmask(SIG_BLOCK, &action.sa_mask, before);
+    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++) {
+        struct sigaction old;
+        if (sigaction(ending[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL) {
+            (void)sigaction(ending[i], &action, NULL);
+        }
+    }
+}
+
+/* Puts `to` where `from` is; more files than there is room for are only not removed by a signal. */
+static void replace_under_way(const char *from, char *to)
+{
+    for (unsigned i = 0; i < MOST_UNDER_WAY; i++) {
+        if (under_way[i] == from) {
+            under_way[i] = to;
+            return;
+        }
+    }
+}
+
+static int make_temporary(char *name)
+{
+    sigset_t before;
+    hold_signals(&before);
+    const int descriptor = mkstemp(name);
+    const int problem = errno;
+    if (descriptor >= 0) {
+        replace_under_way(NULL, name);
+    }
+    (void)sigprocmask(SIG_SETMASK, &before, NULL);
+    errno = problem;
+    return descriptor;
+}
+
+/* Moves the file to its place, or removes it where `path` is NULL, and frees its name. */
+static bool end_temporary(el_output *output, const char *path)
+{
+    sigset_t before;
+    hold_signals(&before);
+    const bool moved = path != NULL && rename(output->temporary, path) == 0;
+    const int problem = errno;
+    if (!moved) {
+        (void)unlink(output->temporary);
+    }
+    replace_under_way(output->temporary, NULL);
+    (void)sigprocmask(SIG_SETMASK, &before, NULL);
+    free(output->temporary);
+    output->temporary = NULL;
+    errno = problem;
+    return moved;
+}
+
 bool el_output_open(el_output *output, const char *path)
 {
     static const char suffix[] = ".XXXXXX";
@@ -66,7 +146,7 @@ bool el_output_open(el_output *output, const char *path)
     }
     memcpy(output->temporary, path, length);
     memcpy(output->temporary + length, suffix, sizeof suffix);
-    const int descriptor = mkstemp(output->temporary);
+    const int descriptor = make_temporary(output->temporary);
     if (descriptor >= 0) {
         give_usual_mode(descriptor);
         output->stream = fdopen(descriptor, "wb");
@@ -75,7 +155,7 @@ bool el_output_open(el_output *output, const char *path)
         el_report("cannot write %s: %s", path, strerror(errno));
         if (descriptor >= 0) {
             close(descriptor);
-            unlink(output->temporary);
+            (void)end_temporary(output, NULL);
         }
         free(output->temporary);
         output->temporary = NULL;
@@ -97,13 +177,10 @@ bool el_output_commit(el_output *output)
     const bool failed = ferror(output->stream) != 0;
     const bool closed = fclose(output->stream) == 0;
     output->stream = NULL;
-    const bool moved = !failed && closed && rename(output->temporary, output->path) == 0;
+    const bool moved = end_temporary(output, failed || !closed ? NULL : output->path);
     if (!moved) {
         el_report("cannot write %s: %s", output->path, strerror(errno));
-        unlink(output->temporary);
     }
-    free(output->temporary);
-    output->temporary = NULL;
     return moved;
 }
 
@@ -114,9 +191,7 @@ void el_output_discard(el_output *output)
     }
     fclose(output->stream);
     output->stream = NULL;
-    unlink(output->temporary);
-    free(output->temporary);
-    output->temporary = NULL;
+    (void)end_temporary(output, NULL);
 }
 
 uint32_t el_pixels_crc(const uint16_t *values, size_t count)

@@ -12,7 +12,7 @@
 uint8_t *el_file_read(const char *path, size_t *size);
 
 /* A file under way: written beside its place and moved there at the end, so that what stood there before is lost only
- * when the new one is complete. */
+ * when the new one is complete. Ctrl-C and the like leave nothing of it. */
 typedef struct el_output {
     FILE *stream;     /* NULL: not open */
     const char *path; /* the caller's */

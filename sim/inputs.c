@@ -9,8 +9,17 @@ const char *const el_view_names[] = {
     [EL_DEBUG_PICTURE] = "picture",     [EL_DEBUG_OVERDRAW] = "overdraw", [EL_DEBUG_DEPTH] = "depth",
     [EL_DEBUG_TRIANGLES] = "triangles", [EL_DEBUG_BANDS] = "bands",       [EL_DEBUG_REJECTED] = "rejected",
 };
+const char *const el_view_summaries[] = {
+    [EL_DEBUG_PICTURE] = "what the display shows",
+    [EL_DEBUG_OVERDRAW] = "how often each pixel was drawn",
+    [EL_DEBUG_DEPTH] = "how far away each pixel is, the nearest ones white",
+    [EL_DEBUG_TRIANGLES] = "each triangle in a colour of its own",
+    [EL_DEBUG_BANDS] = "the picture, dark, with the work of each band as a bar over it",
+    [EL_DEBUG_REJECTED] = "how often each pixel was found hidden",
+};
 const unsigned el_view_count = EL_DEBUG_VIEWS;
 _Static_assert(sizeof el_view_names / sizeof el_view_names[0] >= EL_DEBUG_VIEWS, "a name for each view");
+_Static_assert(sizeof el_view_summaries == sizeof el_view_names, "a summary for each name");
 
 /* SHADING's values. */
 static const char *const shading_names[] = {"as-made", "flat", "gouraud", "textured"};

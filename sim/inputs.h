@@ -13,8 +13,9 @@ typedef struct el_inputs {
     const char *yaw, *pitch, *zoom, *pan_x, *pan_y;
 } el_inputs;
 
-/* "picture", "overdraw", ... by el_debug_view. */
+/* "picture", "overdraw", ... by el_debug_view, and a line on each. */
 extern const char *const el_view_names[];
+extern const char *const el_view_summaries[];
 extern const unsigned el_view_count;
 
 /* Gives the player what is wished. False after one line on stderr. */

@@ -11,7 +11,7 @@ int el_command_list(int argc, char **argv)
 {
     if (argc == 1 && strcmp(argv[0], "views") == 0) {
         for (unsigned i = 0; i < el_view_count; i++) {
-            puts(el_view_names[i]);
+            printf("%-12s %s\n", el_view_names[i], el_view_summaries[i]);
         }
         return EL_EXIT_OK;
     }

@@ -106,10 +106,7 @@ static bool write_picture(const look_options *o, const el_lcd *lcd)
     el_output raw = {0};
     el_output png = {0};
     bool good = (o->raw == NULL || el_output_open(&raw, o->raw)) && (o->png == NULL || el_output_open(&png, o->png));
-    if (good && png.stream != NULL && !el_png_write(png.stream, picture, width, height)) {
-        el_report("cannot write %s", o->png);
-        good = false;
-    }
+    good = good && (png.stream == NULL || el_png_write(&png, picture, width, height));
     if (good && raw.stream != NULL) {
         el_output_pixels(&raw, picture, pixels);
     }

@@ -123,11 +123,8 @@ static bool paint_frames(const paint_options *o, el_machine *machine, el_page_fr
             printf("%08" PRIx32 "\n", el_pixels_crc(picture, PIXELS));
         }
     }
-    if (png->stream != NULL && !el_png_write(png->stream, picture, WIDTH, HEIGHT)) {
-        el_report("cannot write %s", png->path);
-        return false;
-    }
-    return (raw->stream == NULL || el_output_commit(raw)) && (png->stream == NULL || el_output_commit(png));
+    return (png->stream == NULL || el_png_write(png, picture, WIDTH, HEIGHT)) &&
+           (raw->stream == NULL || el_output_commit(raw)) && (png->stream == NULL || el_output_commit(png));
 }
 
 int el_command_paint(int argc, char **argv)

@@ -4,9 +4,11 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
 
-/* Writes width * height pixels, each channel widened to 8 bits by repeating its upper ones. False when libpng says so. */
-bool el_png_write(FILE *stream, const uint16_t *rgb565, uint16_t width, uint16_t height);
+#include "files.h"
+
+/* Writes width * height pixels, each channel widened to 8 bits by repeating its upper ones. False, after one line on
+ * stderr, when they cannot be written. */
+bool el_png_write(el_output *output, const uint16_t *rgb565, uint16_t width, uint16_t height);
 
 #endif

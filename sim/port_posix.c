@@ -40,8 +40,8 @@ static uint64_t now_ns(void)
 
 static uint32_t port_micros(void *context)
 {
-    (void)context;
-    return (uint32_t)(now_ns() / 1000U);
+    const el_posix_port *port = context;
+    return (uint32_t)((now_ns() - port->waited_ns) / 1000U);
 }
 
 /* --- The other end comes and goes ------------------------------------------------------------------------------ */
@@ -123,6 +123,17 @@ static bool port_set_baud(void *context, uint32_t rate)
     return idle;
 }
 
+/* Whoever reads a pipe may take any time to begin, or to go on, and nothing is lost on it: so the session's clock, by which
+ * it gives up, stands still meanwhile. False for a signal that was to end it. */
+static bool wait_for_reader(el_posix_port *port)
+{
+    struct pollfd writable = {.fd = port->out, .events = POLLOUT};
+    const uint64_t begin_ns = now_ns();
+    const bool good = poll(&writable, 1, -1) > 0;
+    port->waited_ns += now_ns() - begin_ns;
+    return good;
+}
+
 static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
 {
     el_posix_port *port = context;
@@ -138,17 +149,16 @@ static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
     if (port->baud != 0) {
         count = throttled(port, count);
     }
-    /* Standard output may be shared with other processes, so it is not made non-blocking. A pipe that poll() calls
-     * writable takes PIPE_BUF bytes without blocking. */
-    struct pollfd writable = {.fd = port->out, .events = POLLOUT};
-    if (port->out == STDOUT_FILENO) {
-        count = count < PIPE_BUF ? count : PIPE_BUF;
-        if (poll(&writable, 1, 0) <= 0) {
-            return 0;
-        }
-    }
     if (count == 0) {
         return 0;
+    }
+    /* Standard output may be shared with other processes, so it is not made non-blocking. A pipe that poll() calls
+     * writable takes PIPE_BUF bytes without blocking. */
+    if (port->out == STDOUT_FILENO) {
+        count = count < PIPE_BUF ? count : PIPE_BUF;
+        if (!wait_for_reader(port)) {
+            return -1;
+        }
     }
     ssize_t took = write(port->out, bytes, count);
     if (took < 0) {

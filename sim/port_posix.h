@@ -25,6 +25,8 @@ typedef struct el_posix_port {
      * bytes: the other end has them early by as much, and no more of them in the long run. The host changes it. */
     uint32_t baud;
     uint64_t sent_ns; /* when the last bit of what was taken has left */
+
+    uint64_t waited_ns; /* standard output: how long its reader has been waited for */
 } el_posix_port;
 
 /* Opens a pseudo-terminal and prints the path of the host's end as a line on stdout. */
@@ -34,7 +36,8 @@ bool el_posix_port_open_pty(el_posix_port *port);
  * client at a time; another one waits until the first has gone. */
 bool el_posix_port_open_tcp(el_posix_port *port, uint16_t tcp_port);
 
-/* Writes to standard output and reads nothing: for a stream with `one_way`. Nothing else may print there. */
+/* Writes to standard output and reads nothing: for a stream with `one_way`. Nothing else may print there. Its reader is
+ * waited for, however long it takes, on a clock that stands still meanwhile; a signal ends that, and the link is gone. */
 bool el_posix_port_open_stdout(el_posix_port *port);
 
 /* The link as the stream sees it; it has rates if `baud` is not 0 now. `wait` returns when there is something to read or room to write, after 1 ms at most. */

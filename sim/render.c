@@ -193,11 +193,7 @@ static bool open_outputs(outputs *out, const render_options *o)
 
 static bool write_png(el_output *output, const el_machine *machine)
 {
-    if (!el_png_write(output->stream, machine->picture, machine->picture_width, machine->picture_height)) {
-        el_report("cannot write %s", output->path);
-        return false;
-    }
-    return true;
+    return el_png_write(output, machine->picture, machine->picture_width, machine->picture_height);
 }
 
 static bool write_numbered_png(const char *pattern, uint32_t frame, const el_machine *machine)

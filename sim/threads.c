@@ -5,6 +5,7 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <signal.h>
 #include <stdlib.h>
 
 #include "report.h"
@@ -115,10 +116,16 @@ el_threads *el_threads_open(unsigned count)
         .context = threads, .count = count, .start = start, .take = take, .wait = wait_for_all, .pause = pause_thread};
     (void)pthread_mutex_init(&threads->mutex, NULL);
     (void)pthread_cond_init(&threads->more, NULL);
+    /* Signals are for the main thread. */
+    sigset_t all, before;
+    (void)sigfillset(&all);
     for (unsigned i = 1; i < count; i++) {
         member *const one = &threads->members[i];
         *one = (member){.threads = threads, .number = i};
-        if (pthread_create(&one->thread, NULL, run, one) != 0) {
+        (void)pthread_sigmask(SIG_SETMASK, &all, &before);
+        const int problem = pthread_create(&one->thread, NULL, run, one);
+        (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+        if (problem != 0) {
             el_report("cannot start thread %u of %u", i, count);
             el_threads_close(threads);
             return NULL;

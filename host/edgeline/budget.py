@@ -179,11 +179,10 @@ def advice(wish: Wish, ram: int) -> list[str]:
     fewer = first(replace(wish, samples=samples) for samples in (4, 1) if samples < wish.samples)
     if fewer is not None:
         ways.append(f"--samples {fewer.samples} fits: {account(fewer).total:,} bytes; edges are less smooth")
-    changes: dict[str, Wish] = {
-        "": wish,
-        "--band 1 ": replace(wish, band=1),
-        "--band 1 --vertices 0 ": replace(wish, band=1, vertices=0),
-    }
+    changes: dict[str, Wish] = {"": wish}
+    if lower is None:
+        changes["--band 1 "] = replace(wish, band=1)
+        changes["--band 1 --vertices 0 "] = replace(wish, band=1, vertices=0)
     for change, changed in changes.items():
         shorter = _most_triangles(changed, ram)
         if shorter is not None:

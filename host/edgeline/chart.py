@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from edgeline.errors import EdgelineError, OutputError
+from edgeline.errors import EdgelineError, OutputError, PackageError
 
 DOTS_PER_INCH = 80
 
@@ -29,8 +29,8 @@ def draw_with_pyplot(draw: Callable[[Any], Any], output: str) -> None:
     """Writes the figure that `draw` makes with matplotlib's pyplot. Raises EdgelineError."""
     try:
         matplotlib = importlib.import_module("matplotlib")
-    except ImportError as error:
-        raise EdgelineError(f"charts need matplotlib ({error}): pip install 'edgeline[plot]'") from None
+    except ImportError:
+        raise PackageError("charts need", "matplotlib") from None
     matplotlib.use("Agg")
     pyplot = importlib.import_module("matplotlib.pyplot")
     figure = draw(pyplot)

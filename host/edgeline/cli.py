@@ -33,7 +33,7 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command; returns the exit code."""
-    options = _parser().parse_args(arguments)
+    options = _options(arguments)
     # A recording that is told to end keeps its frames, whoever tells it.
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -53,11 +53,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def _parser() -> argparse.ArgumentParser:
+def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser: argparse.ArgumentParser = _Parser(
         prog="edgeline", description="Watch, record and prove what a microcontroller draws.", epilog=EXIT_CODES
     )
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(metavar="COMMAND", dest="command", required=True)
     for module in (ports, view, record, replay, verify):
         module.add_parsers(commands)
     add_convert_parser(commands)
@@ -66,4 +66,10 @@ def _parser() -> argparse.ArgumentParser:
     add_image_parser(commands)
     add_budget_parser(commands)
     bench.add_parsers(commands)
-    return parser
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        # argparse would have the command line as a whole complain, whose help does not have the command's options.
+        positional = hasattr(options, "port") and not unknown[0].startswith("-")
+        hint = "; -p names a port or a recording" if positional else ""
+        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
+    return options

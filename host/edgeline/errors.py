@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
+
 
 class EdgelineError(Exception):
     """A problem that the user can act on.
@@ -10,6 +13,17 @@ class EdgelineError(Exception):
     """
 
     exit_code = 2
+
+
+class PackageError(EdgelineError):
+    """A library that only some commands need is not installed. Says how the Python that runs gets it, as the pip of
+    another one would put it elsewhere.
+    """
+
+    def __init__(self, what: str, package: str) -> None:
+        """`what` is what is not done, with its verb: `charts need`."""
+        command = shlex.join([sys.executable, "-m", "pip", "install", package])
+        super().__init__(f"{what} the package {package}; install it with: {command}")
 
 
 class WireError(EdgelineError):

@@ -1,6 +1,6 @@
 """A chart of time against error from the JSON of `edgeline-sim methods`.
 
-`python -m edgeline.methods_plot IN.json OUT.png`. Needs matplotlib, the optional extra `edgeline[plot]`.
+`python -m edgeline.methods_plot IN.json OUT.png`. Needs matplotlib, the optional extra `plot`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from edgeline.convert.files import write_whole
-from edgeline.errors import EdgelineError
+from edgeline.errors import EdgelineError, PackageError
 
 FAMILIES = ("triangles", "polygons")
 FAULTS = ("cracks", "double_hits")
@@ -65,11 +65,11 @@ def read_points(path: Path) -> dict[str, list[Point]]:
 
 
 def draw(points: dict[str, list[Point]]) -> bytes:
-    """The chart as PNG. Raises EdgelineError without matplotlib."""
+    """The chart as PNG. Raises PackageError without matplotlib."""
     try:
         figure_module = importlib.import_module("matplotlib.figure")
-    except ModuleNotFoundError as error:
-        raise EdgelineError("the chart needs matplotlib: pip install 'edgeline[plot]'") from error
+    except ModuleNotFoundError:
+        raise PackageError("the chart needs", "matplotlib") from None
     figure = figure_module.Figure(figsize=(12, 9), layout="constrained")
     panels = figure.subplots(2, 2, width_ratios=(1, 1))
     for row, family in zip(panels, FAMILIES, strict=True):

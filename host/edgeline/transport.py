@@ -225,6 +225,8 @@ def _explain(port: str, error: OSError) -> str:
         return f"{port}: there is no such port: is it plugged in? `edgeline list` shows those that are there"
     if error.errno in (errno.EACCES, errno.EPERM):
         return f"{port}: permission denied: on Linux, join the group that owns the port (dialout, uucp)"
+    if error.errno == errno.ENOTTY or f"({errno.ENOTTY}, " in text:
+        return f"{port}: is no serial port: `edgeline list` shows those that are there"
     if isinstance(error, socket.gaierror):
         return f"{port}: the host's name cannot be resolved"
     if isinstance(error, (TimeoutError, ConnectionRefusedError)):

@@ -94,12 +94,8 @@ static bool parse(int argc, char **argv, example_options *o)
 static bool write_png(const char *path, const uint16_t *picture)
 {
     el_output png = {0};
-    bool good = el_output_open(&png, path);
-    if (good && !el_png_write(png.stream, picture, EXAMPLE_WIDTH, EXAMPLE_HEIGHT)) {
-        el_report("cannot write %s", path);
-        good = false;
-    }
-    good = good && el_output_commit(&png);
+    const bool good = el_output_open(&png, path) && el_png_write(&png, picture, EXAMPLE_WIDTH, EXAMPLE_HEIGHT) &&
+                      el_output_commit(&png);
     el_output_discard(&png);
     return good;
 }

@@ -61,12 +61,12 @@ static bool parse(int argc, char **argv, methods_options *o)
     return true;
 }
 
-static bool write_picture(FILE *stream)
+static bool write_picture(el_output *output)
 {
     static uint16_t pixels[EL_METHODS_PICTURE_WIDTH * EL_METHODS_PICTURE_HEIGHT];
     el_sheet canvas = {EL_METHODS_PICTURE_WIDTH, EL_METHODS_PICTURE_HEIGHT, pixels};
     el_methods_picture(&canvas);
-    return el_png_write(stream, pixels, canvas.width, canvas.height);
+    return el_png_write(output, pixels, canvas.width, canvas.height);
 }
 
 /* The files that were asked for, all opened before anything is measured. */
@@ -84,7 +84,7 @@ static bool commit_output(el_output *output)
     return output->stream == NULL || el_output_commit(output);
 }
 
-static bool write_all(const el_scores *scores, const methods_options *o, outputs *out)
+static bool write_all(const el_scores *scores, outputs *out)
 {
     if (out->json.stream != NULL) {
         el_table_write_json(scores, out->json.stream);
@@ -92,11 +92,8 @@ static bool write_all(const el_scores *scores, const methods_options *o, outputs
     if (out->csv.stream != NULL) {
         el_table_write_csv(scores, out->csv.stream);
     }
-    if (out->png.stream != NULL && !write_picture(out->png.stream)) {
-        el_report("cannot write %s: libpng could not make the picture", o->png);
-        return false;
-    }
-    return commit_output(&out->json) && commit_output(&out->csv) && commit_output(&out->png);
+    return (out->png.stream == NULL || write_picture(&out->png)) && commit_output(&out->json) &&
+           commit_output(&out->csv) && commit_output(&out->png);
 }
 
 int el_command_methods(int argc, char **argv)
@@ -113,7 +110,7 @@ int el_command_methods(int argc, char **argv)
     if (open_output(&out.json, o.json) && open_output(&out.csv, o.csv) && open_output(&out.png, o.png)) {
         if (!el_score_all(&scores)) {
             el_report("methods: no memory for %ld shapes of each kind; a smaller --count needs less", o.count);
-        } else if (write_all(&scores, &o, &out)) {
+        } else if (write_all(&scores, &out)) {
             el_table_print(&scores, stdout);
             status = EL_EXIT_OK;
         }

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import struct
+import subprocess
+import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -188,6 +191,34 @@ def test_an_older_output_outlives_an_error(fails: Fails, tmp_path: Path, option:
     path.write_bytes(b"older picture")
     fails("render", "--scene", "no-such-scene", option, str(path))
     assert path.read_bytes() == b"older picture"
+
+
+@pytest.mark.parametrize("option", ["--png", "--raw", "--depth", "--wire"])
+def test_a_full_disk_is_said_and_leaves_nothing(simulator: Simulator, tmp_path: Path, option: str) -> None:
+    """A limit on files stands in for it; Python ignores its signal, which the program takes over."""
+    limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh"]
+    command = [*limited, str(simulator.path), "render", "--scene", "room", option, str(tmp_path / "out")]
+    done = subprocess.run(command, restore_signals=False, capture_output=True, text=True, timeout=20, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"edgeline-sim: cannot write {tmp_path / 'out'}: File too large\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_an_interruption_leaves_nothing_half_written(simulator: Simulator, tmp_path: Path, ending: int) -> None:
+    (tmp_path / "out.png").write_bytes(b"older picture")
+    names = ["--png", str(tmp_path / "out.png"), "--raw", str(tmp_path / "out.rgb"), "--threads", "2"]
+    command = [str(simulator.path), "render", "--scene", "S1", "--frames", "1000000", *names]
+    before = signal.signal(ending, signal.SIG_DFL)  # as a program inherits it where it is ignored
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as running:
+        signal.signal(ending, before)
+        deadline = time.monotonic() + 20
+        while len(list(tmp_path.iterdir())) < 3 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        running.send_signal(ending)
+        assert running.communicate(timeout=20)[1] == ""
+    assert running.returncode == -ending
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"older picture"]
 
 
 COVERAGE = b"HOC1" + struct.pack("<4i", 1, 320, 240, 16) + struct.pack("<6i", 0, 0, 99, 0, 0, 99)

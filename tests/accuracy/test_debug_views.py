@@ -32,7 +32,9 @@ def _crc(simulator: Simulator, scene: str, view: str, *arguments: str) -> str:
 
 
 def test_the_simulator_names_its_views(simulator: Simulator) -> None:
-    assert tuple(simulator.run_well("list", "views").split()) == ("picture", *VIEWS)
+    lines = [line.split(maxsplit=1) for line in simulator.run_well("list", "views").splitlines()]
+    assert [name for name, _ in lines] == ["picture", *VIEWS]
+    assert len({summary for _, summary in lines}) == len(lines)
 
 
 @pytest.mark.parametrize("view", VIEWS)

@@ -6,15 +6,18 @@ committing them.
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
-from conftest import REPOSITORY
+from conftest import REPOSITORY, missing
 from golden import expect_golden
 from sim_commands import Simulator
 
@@ -72,3 +75,42 @@ def test_what_a_program_does_not_know_is_one_line(simulator: Simulator) -> None:
         done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60, check=False)
         assert done.returncode == 2
         assert len(done.stderr.splitlines()) == 1
+
+
+OWN_MODEL = """mtllib own.mtl
+v -3 -1 0\nv -1 -1 0\nv -1 1 0\nv -3 1 0\nv 1 -1 0\nv 1 1 0\nv 3 -1 0\nv 3 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
+usemtl left one\nf 1 2 3 4\nusemtl middle\nf 2/1 5/2 6/3 3/4\nusemtl Right\nf 5 7 8 6
+"""
+OWN_MATERIALS = """newmtl left one\nKd 1 0 0\nnewmtl middle\nmap_Kd green.png\nnewmtl Right\nKd 0 0 1\nd 0.5
+"""
+"""Three squares side by side: red, with a green picture, blue and half transparent."""
+
+
+def test_a_model_of_several_materials_turns_whole(tmp_path: Path) -> None:
+    """By the guide's commands, on a build of its own; the names have capitals and spaces."""
+    if shutil.which("cmake") is None:
+        missing("cmake")
+    (tmp_path / "own.obj").write_text(OWN_MODEL, encoding="utf-8")
+    (tmp_path / "own.mtl").write_text(OWN_MATERIALS, encoding="utf-8")
+    Image.new("RGB", (4, 4), (0, 255, 0)).save(tmp_path / "green.png")
+    header, build, shown = tmp_path / "my own.h", tmp_path / "build", tmp_path / "shown.png"
+    for command in (
+        [sys.executable, "-m", "edgeline", "convert", tmp_path / "own.obj", "--name", "MyOwn", "-o", header],
+        ["cmake", "--preset", "sim", "-B", build, f"-DEDGELINE_EXAMPLE_MODEL={header}"],
+        ["cmake", "--build", build, "--parallel", "2", "--target", "example-spinning_model"],
+        [build / "examples" / "spinning_model", "--frames", "1", "--png", shown],
+    ):
+        environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "host")}
+        done = subprocess.run(
+            [*map(str, command)],
+            cwd=REPOSITORY,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+        assert done.returncode == 0, f"{command}: {done.stderr or done.stdout}"
+    row = np.asarray(Image.open(shown).convert("RGB"))[120].astype(int)
+    lit = row[row.max(axis=1) > 64]
+    assert lit[[0, len(lit) // 2, -1]].argmax(axis=1).tolist() == [0, 1, 2]

@@ -45,6 +45,9 @@ BAD_COMMAND_LINES: list[tuple[list[str], list[str]]] = [
     (["shot", "--timeout", "-1"], ["--timeout", "'-1'"]),
     (["shot", "--timeout", "nan"], ["--timeout", "'nan'"]),
     (["info", "-b", "fast"], ["'fast'"]),
+    (["info", "a.elrec"], ["edgeline info: ", "a.elrec", "-p names a port or a recording", "edgeline info --help"]),
+    (["info", "--loud", "a.elrec"], ["edgeline info: unrecognized arguments: --loud a.elrec (see"]),
+    (["convert", "a.obj", "b.obj", "-o", "c.h"], ["edgeline convert: unrecognized arguments: b.obj (see"]),
     (["shot", "--fast", "0"], ["'0'"]),
     (["shot", "--mode", "jump"], ["'jump'", "block"]),
     (["record", "-o", "a.bmp", "-p", "x"], ["a.bmp", "*.gif"]),
@@ -118,6 +121,10 @@ def test_a_port_that_is_taken(edgeline: Edgeline, tmp_path: Path) -> None:
 def test_an_absent_port(edgeline: Edgeline, tmp_path: Path) -> None:
     complains(edgeline("shot", "-p", "/dev/ttyABSENT"), 3, "/dev/ttyABSENT", "no such port")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_device_that_is_no_port(edgeline: Edgeline) -> None:
+    complains(edgeline("shot", "-p", "/dev/null", "-o", "a.png"), 3, "/dev/null: is no serial port")
 
 
 def test_a_busy_port(edgeline: Edgeline) -> None:

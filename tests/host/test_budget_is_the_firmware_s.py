@@ -146,7 +146,9 @@ def test_what_is_advised_fits_and_one_more_does_not() -> None:
         total = account(wish).total
         least = account(replace(wish, band=1, triangles=0, vertices=0, draws=0, samples=1)).total
         ram = rng.choice((total - 1, rng.randint(min(2000, total - 1), total - 1)))
-        for way in advice(wish, ram):
+        ways = advice(wish, ram)
+        assert not (ways[0].startswith("--band") and any(way.startswith("--band") for way in ways[1:]))
+        for way in ways:
             kinds.add(re.sub(r"\d[\d,]*", "N", way))
             bytes_told = int(re.findall(r"([\d,]+) bytes", way)[0].replace(",", ""))
             changed = replace(wish, **{name: int(value) for name, value in re.findall(r"--(\w+) (\d+)", way)})

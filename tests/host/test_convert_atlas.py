@@ -52,6 +52,15 @@ def drawn(simulator: str, folder: Path, side: int = CELL) -> npt.NDArray[np.uint
     return np.fromfile(folder / "m.raw", "<u2").reshape(height, width)
 
 
+def test_an_atlas_that_joins_nothing_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = "note: --atlas joins nothing, as no two parts differ only in their images\n"
+    model = squares(tmp_path)
+    convert(model, "-o", tmp_path / "m.h", "--atlas")
+    assert said not in capsys.readouterr().out
+    convert(model, "-o", tmp_path / "m.h", "--atlas", "--texture", tmp_path / "0.png")
+    assert said in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("mipmaps", [False, True])
 def test_an_atlas_looks_the_same(simulator: str, tmp_path: Path, mipmaps: bool) -> None:
     model = squares(tmp_path, shifts=(0.0, 3.0, -2.0, 1e-4))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +94,22 @@ def test_scale_and_centre(quad: Path) -> None:
     assert sorted(positions.tolist()) == [[-2, -2, 0], [-2, 2, 0], [2, -2, 0], [2, 2, 0]]
 
 
+def test_a_model_far_from_its_origin_is_told_of_centre(quad: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output, text = quad.with_suffix(".elm"), quad.read_text()
+
+    def moved(x: float) -> Path:
+        quad.write_text(re.sub(r"^v (\S+)", lambda v: f"v {float(v[1]) + x}", text, flags=re.MULTILINE))
+        return quad
+
+    convert(moved(2), "-o", output)
+    assert "--centre" not in capsys.readouterr().out
+    convert(moved(100), "-o", output)
+    assert "it is far from its origin; --centre makes its positions 128 times as fine\n" in capsys.readouterr().out
+    assert "no triangle is left with an area; give --centre" in refused("convert", moved(1e5), "-o", output)
+    convert(moved(1e5), "-o", output, "--centre")
+    assert "--centre" not in capsys.readouterr().out
+
+
 def test_headers_name_the_command_that_makes_them_again(quad: Path) -> None:
     output = quad.with_suffix(".h")
     for words in ("--crease 12.3456789 --up z --scale 0.5 --centre --triangles 1234567", "--crease 0 --mipmaps"):
@@ -106,6 +123,25 @@ def test_a_missing_library_is_only_noted(quad: Path, capsys: pytest.CaptureFixtu
     notes = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
     assert len(notes) == 2
     assert "quad.mtl is not there" in notes[0]
+
+
+def test_files_with_another_computer_s_paths_are_found_beside_the_model(
+    quad: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    convert(quad, "-o", quad.with_suffix(".elm"))
+    expected = quad.with_suffix(".elm").read_bytes()
+    quad.write_text(quad.read_text().replace("mtllib quad.mtl", "mtllib C:\\gone\\quad.mtl"))
+    library = quad.with_suffix(".mtl")
+    library.write_text(library.read_text().replace("map_Kd ", "map_Kd /gone/"))
+    (quad.parent / "textures" / "wood.png").rename(quad.parent / "wood.png")
+    capsys.readouterr()
+    assert convert(quad, "-o", quad.with_suffix(".elm")) == 0
+    assert quad.with_suffix(".elm").read_bytes() == expected
+    notes = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert [note.split("note: ")[1].split(" is not there; ")[0] for note in notes] == [
+        "C:\\gone\\quad.mtl",
+        "/gone/textures\\wood.png",
+    ]
 
 
 def test_missing_and_broken_files(quad: Path) -> None:

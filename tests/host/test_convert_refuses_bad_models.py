@@ -130,6 +130,11 @@ BAD = {
         edited(lambda c: c.update(extensionsRequired=["KHR_draco_mesh_compression"])),
         "m.glb: it needs KHR_draco_mesh_compression, which is not read; export it without",
     ),
+    "glb: extension a list": (
+        "m.glb",
+        edited(lambda c: c.update(extensionsRequired=[["KHR"]])),
+        "m.glb: it needs ['KHR'], which is not read",
+    ),
     "glb: no scene": (
         "m.glb",
         edited(lambda c: c.update(scene=3)),

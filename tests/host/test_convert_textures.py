@@ -296,6 +296,35 @@ def test_materials_of_gltf_in_the_header(tmp_path: Path, capsys: pytest.CaptureF
     assert ".flags" not in text and ".alpha" not in text and ".image" not in text and ".wrap" not in text
 
 
+def test_what_a_file_says_in_vain_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    gltf = Gltf()
+    paint = gltf.material([1, 0, 0, 1], emissiveFactor=[0, 0.5, 0])
+    gltf.node(gltf.primitive(ring(6, 4), attributes="p", material=paint))
+    gltf.json["extensionsUsed"] = ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"]
+    (tmp_path / "m.glb").write_bytes(gltf.glb())
+    convert(tmp_path / "m.glb", "-o", tmp_path / "m.h")
+    notes = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert notes == [
+        "  note: paint 0: its glow is left out; el_lighting.emissive makes surfaces glow",
+        "  note: what KHR_materials_pbrSpecularGlossiness says is left out",
+    ]
+    for glow, told in (("0 0 0", False), ("0 0 1", True)):
+        square(tmp_path, (0, 2), f"Ke {glow}")
+        convert(tmp_path / "m.obj", "-o", tmp_path / "m.h", "--no-texture")
+        assert (
+            "note: paint: its glow is left out; el_lighting.emissive makes surfaces glow" in capsys.readouterr().out
+        ) == told
+
+
+def test_options_of_textures_that_do_nothing_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = glb(tmp_path)
+    convert(model, "-o", tmp_path / "m.h", "--no-texture", "--texture-format", "palette4", "--mipmaps", "--up", "z")
+    assert "note: there is no texture, so nothing comes of --texture-format, --mipmaps\n" in capsys.readouterr().out
+    convert(model, "-o", tmp_path / "m.h", "--texture-format", "palette4", "--mipmaps")
+    convert(model, "-o", tmp_path / "m.h", "--no-texture", "--up", "z")
+    assert "nothing comes of" not in capsys.readouterr().out
+
+
 def test_materials_of_mtl(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     alpha = np.full((SIDE, SIDE), 200, np.uint8)
     Image.fromarray(np.dstack([smooth_picture(), alpha])).save(tmp_path / "image.png")

@@ -13,6 +13,7 @@ import json
 import re
 import socket
 import subprocess
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -128,6 +129,16 @@ def test_a_paused_scene_goes_on_where_it_stood(simulator: str, scenes: list[str]
         shown = (frame.picture for frame in link)
         moved = next(picture for picture in shown if not np.array_equal(picture, truth[-2]))
         assert np.array_equal(moved, truth[-1])
+
+
+def test_a_pipe_whose_reader_takes_its_time_has_all_frames(simulator: str, edgeline: Edgeline, tmp_path: Path) -> None:
+    command = [simulator, "stream", "--scene", "room", "--stdout", "--frames", "8"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        time.sleep(1.5)  # a session's patience is 0.5 s
+        (tmp_path / "captured").write_bytes(process.stdout.read())
+    told = json.loads(edgeline("view", "--headless", "--json", "-p", "captured").stdout)
+    assert (told["frames"], told["damaged"]) == (8, 0)
 
 
 def test_commands(simulator: str, scenes: list[str], edgeline: Edgeline, tmp_path: Path) -> None:

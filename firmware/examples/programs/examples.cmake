@@ -20,24 +20,26 @@ set(edgeline_glass_st7735 128 160)
 set(edgeline_glass_ssd1306 128 64)
 set(edgeline_glass_ssd0323 128 64)
 
-# What `edgeline convert` calls the mesh and, where there is one, its texture.
+# The meshes of a header of `edgeline convert`: one for each material, in the order in which they are drawn.
 function(edgeline_example_model target)
     if(NOT EXISTS ${EDGELINE_EXAMPLE_MODEL})
         message(FATAL_ERROR "EDGELINE_EXAMPLE_MODEL is '${EDGELINE_EXAMPLE_MODEL}', which does not exist; give a header's "
                             "whole path")
     endif()
-    file(STRINGS ${EDGELINE_EXAMPLE_MODEL} meshes REGEX "^static const el_mesh [a-z0-9_]+ = {")
-    if(NOT meshes)
-        message(FATAL_ERROR "${EDGELINE_EXAMPLE_MODEL} holds no mesh; `edgeline convert` makes such headers")
+    set(definition "^static const el_material ([A-Za-z0-9_]+)_material = {")
+    file(STRINGS ${EDGELINE_EXAMPLE_MODEL} materials REGEX "${definition}")
+    if(NOT materials)
+        message(FATAL_ERROR "${EDGELINE_EXAMPLE_MODEL} holds no mesh with its material; `edgeline convert` makes such "
+                            "headers")
     endif()
-    list(GET meshes 0 mesh)
-    string(REGEX REPLACE "^static const el_mesh ([a-z0-9_]+) = {.*" "\\1" mesh ${mesh})
+    set(parts "")
+    foreach(line IN LISTS materials)
+        string(REGEX MATCH "${definition}" line ${line})
+        string(APPEND parts "PART(${CMAKE_MATCH_1})")
+    endforeach()
     target_compile_definitions(${target} PRIVATE
-        EXAMPLE_MODEL_FILE="${EDGELINE_EXAMPLE_MODEL}" EXAMPLE_MODEL=${mesh})
-    file(STRINGS ${EDGELINE_EXAMPLE_MODEL} textures REGEX "^static const el_texture ${mesh}_texture = {")
-    if(textures)
-        target_compile_definitions(${target} PRIVATE EXAMPLE_TEXTURE=${mesh}_texture)
-    endif()
+        EXAMPLE_MODEL_FILE="${EDGELINE_EXAMPLE_MODEL}" EXAMPLE_MODEL_PARTS=${parts})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${EDGELINE_EXAMPLE_MODEL}) # its names may change
 endfunction()
 
 function(edgeline_example target name)

@@ -1,22 +1,19 @@
-"""What the extra `edgeline[convert]` brings: libraries that are imported when needed, or missed in one line."""
+"""What the extra `convert` brings: libraries that are imported when needed, or missed in one line."""
 
 from __future__ import annotations
 
 import importlib
 from types import ModuleType
 
-from edgeline.errors import EdgelineError
+from edgeline.errors import PackageError
 
 
 def fast_simplification() -> ModuleType:
-    """The library that collapses edges. Raises EdgelineError where it is not installed."""
+    """The library that collapses edges. Raises PackageError where it is not installed."""
     try:
         return importlib.import_module("fast_simplification")
     except ImportError:
-        raise EdgelineError(
-            "--triangles and --tolerance need the package fast-simplification; install it with: "
-            "python -m pip install 'edgeline[convert]'"
-        ) from None
+        raise PackageError("--triangles and --tolerance need", "fast-simplification") from None
 
 
 def tqdm() -> ModuleType | None:

@@ -1,7 +1,7 @@
 """glTF 2.0: the triangles of a scene, where its nodes put them, with their materials' colours and images.
 
-Left out, each with a note: points and lines, skins, morph targets, animations, what glows. Refused: extensions that a
-file requires and that are not known here, compression above all.
+Left out, each with a note: points and lines, skins, morph targets, animations, what glows, extensions that are
+not known here. Refused: those of them that a file requires, compression above all.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from edgeline.convert.gltf_file import GltfFile, Json, open_gltf
 from edgeline.convert.mesh import Floats, Ints
-from edgeline.convert.source import Part, Picture, Source, as_floats, check_count, check_positions, to_bytes
+from edgeline.convert.source import NO_GLOW, Part, Picture, Source, as_floats, check_count, check_positions, to_bytes
 from edgeline.convert.texels import Wrap
 from edgeline.convert.texture import Alpha, encoded
 from edgeline.errors import EdgelineError
@@ -142,8 +142,8 @@ class _Reader:
         if mode not in ALPHAS:
             raise file.error(f"{where}: 'alphaMode' is {mode:.20}")
         two_sided = file.value(material, where, "doubleSided", bool, False)
-        if any(file.numbers(material, where, "emissiveFactor", [0.0] * 3)):
-            self.note(f"{name}: its glow is left out; el_lighting.emissive makes surfaces glow")
+        if max(file.numbers(material, where, "emissiveFactor", [0.0] * 3)) > 0:
+            self.note(f"{name}: {NO_GLOW}")
         surface = file.value(material, where, "pbrMetallicRoughness", dict, {})
         red, green, blue, opacity = file.numbers(surface, where, "baseColorFactor", [1.0] * 4)
         opacity = min(max(opacity, 0.0), 1.0)
@@ -302,6 +302,11 @@ def _normal_matrix(m: Floats) -> Floats:
     return cofactors if np.linalg.det(m) >= 0 else -cofactors
 
 
+def unknown_extensions(file: GltfFile, key: str) -> list[str]:
+    names = map(str, file.value(file.json, "the file", key, list, []))
+    return [extension for extension in names if extension not in KNOWN_EXTENSIONS]
+
+
 def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> Source:
     """The triangles of the file's scene. Raises EdgelineError with the place for what cannot be meant."""
     file = open_gltf(name, data, read_beside)
@@ -309,8 +314,7 @@ def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> S
     version = file.value(asset, "asset", "version", str)
     if version.split(".")[0] != "2":
         raise EdgelineError(f"{name}: glTF version {version:.10}, this reads version 2; export the model as glTF 2.0")
-    required = file.value(file.json, "the file", "extensionsRequired", list, [])
-    unknown = [str(extension) for extension in required if extension not in KNOWN_EXTENSIONS]
+    unknown = unknown_extensions(file, "extensionsRequired")
     if unknown:
         raise EdgelineError(
             f"{name}: it needs {unknown[0]:.60}, which is not read; export it without compression or it"
@@ -319,6 +323,8 @@ def parse_gltf(name: str, data: bytes, read_beside: Callable[[str], bytes]) -> S
     pieces = list(reader.pieces())
     if "animations" in file.json:
         reader.note("animations are left out")
+    for extension in unknown_extensions(file, "extensionsUsed"):
+        reader.note(f"what {extension:.60} says is left out")
     if not any(len(piece.positions) for piece in pieces):
         raise EdgelineError(f"{name}: no triangle in its scene; is it a mesh of polygons?")
     return _source(reader, pieces)

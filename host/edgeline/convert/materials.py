@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from edgeline.convert import atlas
 from edgeline.convert.header import Look
+from edgeline.convert.options import TEXTURE_OPTIONS, given_options
 from edgeline.convert.progress import Steps
 from edgeline.convert.source import Part, Picture, Source, fitted_wrap
 from edgeline.convert.texels import MAX_TEXTURE_LOG2, Format, Texture, Wrap
@@ -78,6 +79,11 @@ def with_texture(
 
 def notes_of(source: Source, pixels: list[Pixels | None], args: argparse.Namespace) -> list[str]:
     notes = []
+    idle = given_options(args, TEXTURE_OPTIONS)
+    if idle and all(image is None for image in pixels):
+        notes.append(f"there is no texture, so nothing comes of {', '.join(idle)}")
+    elif args.atlas and not any(part.is_atlas for part in source.parts):
+        notes.append("--atlas joins nothing, as no two parts differ only in their images")
     for part, image in zip(source.parts, pixels, strict=True):
         name = part.name or "the model"
         if is_blended(part):

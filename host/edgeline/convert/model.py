@@ -102,9 +102,7 @@ def image_parts(
     return tuple(parts), part_of_material[face_materials]
 
 
-def source_from(
-    model: ObjModel, materials: dict[str, Material], picture_of: Callable[[str], Picture], notes: tuple[str, ...] = ()
-) -> Source:
+def source_from(model: ObjModel, materials: dict[str, Material], picture_of: Callable[[str], Picture]) -> Source:
     """The model's triangles with all their attributes. `picture_of` tells the image of a material by its name."""
     vertices = np.array(model.positions, dtype=np.float64).reshape(-1, 3)
     corners = gather(model, vertices)
@@ -122,6 +120,5 @@ def source_from(
             uvs=corner_uvs(model, corners),
             colours=vertex_colours(model, corners),
             triangle_colours=material_colours(model, face_materials, materials),
-            notes=notes,
         )
     )

@@ -1,6 +1,6 @@
 """Wavefront OBJ and MTL as text: what a file says, checked, with the line of every face for later messages.
 
-Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd, d, Tr, map_Kd and map_d in materials.
+Understood are v (with colours), vt, vn, f, usemtl and mtllib, and newmtl, Kd, Ke, d, Tr, map_Kd and map_d in materials.
 Groups, objects, smoothing groups, lines, points and free-form surfaces are passed over. No files are opened here.
 """
 
@@ -53,7 +53,7 @@ class ObjModel:
 @dataclass
 class Material:
     """`colour` is Kd, `opacity` d, 0 to 1; `image` the file name of map_Kd; `line` where that stands; `clamps`: its
-    option -clamp on; `clear_image` the file name of map_d."""
+    option -clamp on; `clear_image` the file name of map_d; `glows`: its Ke is not black."""
 
     colour: tuple[float, float, float] | None = None
     opacity: float = 1.0
@@ -61,6 +61,7 @@ class Material:
     line: int = 0
     clamps: bool = False
     clear_image: str | None = None
+    glows: bool = False
 
     @property
     def has_alpha(self) -> bool:
@@ -216,6 +217,8 @@ def parse_mtl(name: str, data: bytes) -> dict[str, Material]:
             values = numbers(name, line, words, 1, 3)
             red, green, blue = (min(max(v, 0.0), 1.0) for v in (values * 3)[:3])
             current.colour = red, green, blue
+        elif words[0] == "Ke" and words[1:2] not in (["spectral"], ["xyz"]):
+            current.glows = max(numbers(name, line, words, 1, 3)) > 0
         elif words[0] in ("d", "Tr") and words[1:2] != ["-halo"]:
             (value,) = numbers(name, line, words, 1, 1)
             current.opacity = min(max(value if words[0] == "d" else 1.0 - value, 0.0), 1.0)

@@ -14,27 +14,11 @@ from edgeline.errors import EdgelineError
 DEFAULT_CREASE = 60.0
 DEFAULT_TEXTURE_SIZE = 128
 READ = (".obj", ".stl", ".ply", ".gltf", ".glb")
+TEXTURE_OPTIONS = ("texture_size", "texture_format", "dither", "mipmaps", "atlas", "alpha", "wrap", "filter")
+"""What can be asked of textures alone."""
 MODEL_OPTIONS = (
-    *(
-        "crease",
-        "no_normals",
-        "texture",
-        "no_texture",
-        "texture_size",
-        "texture_format",
-        "dither",
-        "mipmaps",
-        "atlas",
-        "alpha",
-        "wrap",
-        "filter",
-        "up",
-        "scale",
-        "centre",
-        "triangles",
-        "tolerance",
-    ),
-    *("vertex_colours", "no_clusters"),
+    *("crease", "no_normals", "texture", "no_texture", *TEXTURE_OPTIONS),
+    *("up", "scale", "centre", "triangles", "tolerance", "vertex_colours", "no_clusters"),
 )
 """What can be asked of a model; an .elm is passed on as it is."""
 
@@ -61,7 +45,7 @@ def add_model_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scale", type=float, metavar="FACTOR", help="multiply all coordinates (default: 1)")
     parser.add_argument("--centre", action="store_true", help="move the middle of the bounding box to the origin")
     parser.add_argument(
-        "--triangles", type=int, metavar="N", help="simplify to N triangles at most; needs edgeline[convert]"
+        "--triangles", type=int, metavar="N", help="simplify to N triangles at most; needs fast-simplification"
     )
     parser.add_argument(
         "--tolerance",
@@ -110,12 +94,17 @@ def is_given(value: object) -> bool:
     return value is not None and value is not False
 
 
+def given_options(args: argparse.Namespace, names: tuple[str, ...]) -> list[str]:
+    """Those that the command line has, as it has them."""
+    return [f"--{name.replace('_', '-')}" for name in names if is_given(getattr(args, name))]
+
+
 def check_model_options(args: argparse.Namespace) -> None:
     """Raises EdgelineError for options that make no sense, alone or for this kind of file."""
     suffix = args.model.suffix.lower()
     if suffix not in (*READ, ".elm"):
         raise EdgelineError(f"{args.model}: models are read from {', '.join(READ)} or .elm; export it as one of these")
-    given = [f"--{name.replace('_', '-')}" for name in MODEL_OPTIONS if is_given(getattr(args, name))]
+    given = given_options(args, MODEL_OPTIONS)
     if suffix == ".elm" and given:
         raise EdgelineError(f"{given[0]} is for models in other formats; an .elm is passed on as it is")
     if args.crease is not None and not 0 <= args.crease <= 180:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from edgeline.convert import elm
 from edgeline.convert.atlas import with_atlases
@@ -42,11 +43,14 @@ from edgeline.convert.options import DEFAULT_CREASE, DEFAULT_TEXTURE_SIZE
 from edgeline.convert.ply import parse_ply
 from edgeline.convert.progress import Steps
 from edgeline.convert.simplify import Simplified, simplified
-from edgeline.convert.source import Picture, Source, placed, soup_of, with_normals
+from edgeline.convert.source import NO_GLOW, Picture, Source, placed, soup_of, with_normals
 from edgeline.convert.stl import parse_stl
 from edgeline.convert.texels import Wrap
 from edgeline.convert.texture import Alpha, ColourError, Pixels, Style
 from edgeline.errors import EdgelineError
+
+NOTED_BITS = 3
+"""By so many bits finer, --centre is worth a note."""
 
 
 @dataclass(frozen=True)
@@ -72,18 +76,31 @@ def read_bytes(path: Path) -> bytes:
         raise EdgelineError(f"cannot read {path}: {error.strerror or error}") from error
 
 
+def file_beside(path: Path, name: str, notes: list[str]) -> Path:
+    """The file that the model at `path` names; where that is not there, as on another computer, the one of that name in
+    the model's own folder, if there is one, which is noted."""
+    named = path.parent / name.replace("\\", "/")
+    near = path.parent / named.name
+    if named.exists() or not near.is_file():
+        return named
+    notes.append(f"{name} is not there; {near.name} beside the model is taken")
+    return near
+
+
 def read_materials(path: Path, model: ObjModel, notes: list[str]) -> tuple[dict[str, Material], dict[str, str]]:
     """The materials of all libraries that the model names, and the library of each. A missing one is only noted."""
     materials: dict[str, Material] = {}
     library_of: dict[str, str] = {}
     for _, name in model.libraries:
-        library = path.parent / name.replace("\\", "/")
+        library = file_beside(path, name, notes)
         if not library.is_file():
             notes.append(f"the material library {name} is not there; its colours and textures are left out")
             continue
         found = parse_mtl(library.name, read_bytes(library))
         materials |= found
         for material, made in found.items():
+            if made.glows:
+                notes.append(f"{material}: {NO_GLOW}")
             if made.clear_image is not None and not made.has_alpha:
                 notes.append(f"{material}: map_d is left out; what is clear has to be the alpha of map_Kd's own image")
         library_of |= dict.fromkeys(found, library.name)
@@ -97,12 +114,13 @@ def read_obj(path: Path) -> Source:
 
     def picture_of(material: str) -> Picture:
         found = materials[material]
-        image = path.parent / (found.image or "").replace("\\", "/")
+        image = file_beside(path, found.image or "", notes)
         wrap = Wrap.CLAMP if found.clamps else Wrap.REPEAT
         alpha = Alpha.BLEND if found.has_alpha else Alpha.NONE
         return Picture(f"{library_of[material]}:{found.line}: map_Kd", image, wrap=(wrap, wrap), alpha=alpha)
 
-    return source_from(model, materials, picture_of, tuple(notes))
+    source = source_from(model, materials, picture_of)
+    return replace(source, notes=(*dict.fromkeys(notes), *source.notes))
 
 
 def read_source(path: Path) -> Source:
@@ -159,11 +177,25 @@ def reduced(source: Source, args: argparse.Namespace, steps: Steps) -> tuple[Sou
     return source, None
 
 
+def scale_log2_of(source: Source) -> int:
+    return scale_log2_for(float(np.abs(source.positions).max()))
+
+
+def triangles_with_area(source: Source) -> npt.NDArray[np.bool_]:
+    """Which triangles have one when their positions are whole units."""
+    return has_area(np.rint(np.ldexp(source.positions, -scale_log2_of(source))))
+
+
+def centred(source: Source) -> Source:
+    return placed(source, "y", 1.0, centre=True)
+
+
 def meshes_of(
     source: Source, pixels: list[Pixels | None], style: Style, names: list[str], steps: Steps, *, clustered: bool
 ) -> Result:
     """A mesh of each part that has an area, named so; those that are blended last. Raises EdgelineError."""
-    scale_log2 = scale_log2_for(float(np.abs(source.positions).max()))
+    scale_log2 = scale_log2_of(source)
+    drawn = triangles_with_area(source)
     named: list[NamedMesh] = []
     found: list[Quantised] = []
     errors: list[ColourError | None] = []
@@ -172,7 +204,7 @@ def meshes_of(
         for i, part_name in in_drawing_order(source, names):
             rows = source.part_of == i
             done(1)
-            if not has_area(np.rint(np.ldexp(source.positions[rows], -scale_log2))).any():
+            if not drawn[rows].any():
                 dropped += int(rows.sum())
                 continue
             part = source.parts[i]
@@ -183,6 +215,8 @@ def meshes_of(
             named.append(NamedMesh(part_name, mesh, texture, material=look_of(part)))
     counts = [len(one.mesh.triangles) for one in found]
     total = sum(counts)
+    if total == 0 and triangles_with_area(centred(source)).any():
+        raise EdgelineError("it is so far from its origin that no triangle is left with an area; give --centre")
     check_triangle_count(min(total, 1))
     before = sum(per_triangle(one.mesh) * count for one, count in zip(found, counts, strict=True)) / total
     squares = sum(one.position_rms**2 * count for one, count in zip(found, counts, strict=True)) / total
@@ -216,7 +250,10 @@ def convert_model(args: argparse.Namespace, name: str, steps: Steps) -> Result:
     except EdgelineError as problem:
         text = str(problem)
         raise problem if text.startswith(source.name) else EdgelineError(f"{source.name}: {text}") from problem
-    return replace(result, notes=(*source.notes, *notes_of(source, pixels, args)), simplified=fewer)
+    notes = [*source.notes, *notes_of(source, pixels, args)]
+    if (bits := scale_log2_of(source) - scale_log2_of(centred(source))) >= NOTED_BITS:
+        notes.append(f"it is far from its origin; --centre makes its positions {1 << bits} times as fine")
+    return replace(result, notes=tuple(notes), simplified=fewer)
 
 
 def convert_elm(path: Path, name: str) -> Result:

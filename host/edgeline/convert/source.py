@@ -19,6 +19,7 @@ from edgeline.convert.texels import Texture, Wrap
 from edgeline.convert.texture import Alpha, Pixels, Style, load_pixels
 from edgeline.errors import EdgelineError
 
+NO_GLOW = "its glow is left out; el_lighting.emissive makes surfaces glow"
 UV_LIMIT = 32767
 UV_ERROR = 1 / 8
 """Texels, el_config.uv_error_log2's default."""
