@@ -24,9 +24,9 @@ static void find_rows(el_drawing *d)
     d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, el_renderer_lines(renderer));
 }
 
-/* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
- * is one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's
- * depth is there now. */
+/* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last
+ * sixteenth of the pass' bands; where there is one band only, draws the list. Returns true when vertices that lay over
+ * the depth band are lost, because the band's depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;

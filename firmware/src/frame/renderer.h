@@ -80,9 +80,10 @@ enum {
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
      EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES + 8U)
 
-/* What comes to either of the two with `workers` cores: for each core but the first two colour bands and bins, and for each two depth
- * bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices have all depth bands
- * then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it reaches. */
+/* What comes to either of the two with `workers` cores: for each core but the first two colour bands and bins, and for
+ * each two depth bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices
+ * have all depth bands then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it
+ * reaches. */
 #define EL_WORKERS_BYTES(width, height, band_lines, workers)                                                           \
     ((workers) < 2U ? 0U                                                                                               \
                     : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES +              \
@@ -216,9 +217,11 @@ el_status el_frame_begin(el_renderer *renderer, const el_camera *camera);
 /* Draws a mesh. `mesh`, `material` and all that they point to must stay until the frame is done; `pose` may change.
  * EL_ERROR_MATERIAL: textured without texture or texture coordinates, or with a texture or an image of another size,
  * format or chain than geometry/mesh.h has; a light without normals; EL_MATERIAL_BLEND_DEPTH of what is blended with
- * el_config.depth_prepass; fog that was not made, without depth or with an orthographic camera; or what base/options.h leaves out. EL_ERROR_RANGE: the pose or the mesh leaves the world, or the mesh is too large for so narrow a view;
- * EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn.
- * The mesh's indices and its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
+ * el_config.depth_prepass; fog that was not made, without depth or with an orthographic camera; wires that are not
+ * flat, that are blended or in fog, or with several samples or stripes; overdraw with several samples; or what
+ * base/options.h leaves out. EL_ERROR_RANGE: the pose or the mesh leaves the world, or the mesh is too large for so
+ * narrow a view; EL_ERROR_SIZE: too many triangles. On an error nothing of the mesh is drawn. The mesh's indices and
+ * its bounding sphere are trusted; el_elm_open checks them, the converter makes them. */
 el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material);
 
 /* Draws and hands over the bands of this pass. Returns 1 when the frame needs another pass: submit everything again, in
