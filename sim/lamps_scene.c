@@ -1,9 +1,8 @@
 #include "lamps_scene.h"
 
-#if EL_HAS_LAMPS_SCENE
+#include "scene_units.h"
 
-#define TENTHS_Q16(n) ((n)*65536 / 10)
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+#if EL_HAS_LAMPS_SCENE
 
 enum {
     NIGHT = 0x10A4,

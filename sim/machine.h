@@ -46,7 +46,8 @@ typedef struct el_machine {
 } el_machine;
 
 /* Builds and initialises the product. Without the name of a panel it has an ILI9341 where the frames fit its 240x320 or
- * 320x240 pixels, else a larger controller of the same command set, and the picture is the frame's part of the glass. False after one line on stderr. Close it in any case. */
+ * 320x240 pixels, else a larger controller of the same command set, and the picture is the frame's part of the glass.
+ * False after one line on stderr. Close it in any case. */
 bool el_machine_open(el_machine *machine, const el_machine_config *config);
 void el_machine_close(el_machine *machine);
 

@@ -1,11 +1,9 @@
 #include "materials_scene.h"
 
 #include "demo/meshes/teapot.h"
+#include "scene_units.h"
 
 #if EL_HAS_MATERIALS_SCENE
-
-#define TENTHS_Q16(n) ((n)*65536 / 10)
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 enum {
     SKY = 0xBDF7,

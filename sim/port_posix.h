@@ -40,7 +40,8 @@ bool el_posix_port_open_tcp(el_posix_port *port, uint16_t tcp_port);
  * waited for, however long it takes, on a clock that stands still meanwhile; a signal ends that, and the link is gone. */
 bool el_posix_port_open_stdout(el_posix_port *port);
 
-/* The link as the stream sees it; it has rates if `baud` is not 0 now. `wait` returns when there is something to read or room to write, after 1 ms at most. */
+/* The link as the stream sees it; it has rates if `baud` is not 0 now. `wait` returns when there is something to read
+ * or room to write, after 1 ms at most. */
 el_port el_posix_port_link(el_posix_port *port);
 
 /* Closes what was opened. Standard output stays open. */

@@ -2,11 +2,9 @@
 #include "wires_scene.h"
 
 #include "demo/meshes/teapot.h"
+#include "scene_units.h"
 
 #if EL_HAS_WIRES_SCENE
-
-#define TENTHS_Q16(n) ((n)*65536 / 10)
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 enum { PAPER = 0xEF7C, TURN = 240 /* frames */ };
 

@@ -1,4 +1,5 @@
-/* The list of all scenes. It stands alone so that a program with little flash can link another one (demo/short_list.c, tiny/scene_list.c). */
+/* The list of all scenes. It stands alone so that a program with little flash can link another one (demo/short_list.c,
+ * tiny/scene_list.c). */
 #include "bench/bench_scenes.h"
 #include "demo/demo_scenes.h"
 #include "scene.h"

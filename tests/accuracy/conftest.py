@@ -1,8 +1,4 @@
-"""Fixtures of the accuracy tests: the simulator under test, the test models, the folder for reports.
-
-What is missing is skipped by name on a developer's machine and is a failure where the environment variable CI is set,
-so that a gate cannot pass by not running.
-"""
+"""Fixtures of the accuracy tests: the simulator under test, the test models, the folder for reports."""
 
 from __future__ import annotations
 
@@ -11,43 +7,26 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NoReturn
 
 import pytest
 
 from features_program import Features
+from needs import missing, need_simulator
 from sim_commands import Simulator
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
-def missing(what: str) -> NoReturn:
-    """Skips the test, or fails it where nothing may be skipped."""
-    if os.environ.get("CI"):
-        pytest.fail(f"{what} (CI is set: nothing may be skipped)", pytrace=False)
-    pytest.skip(what)
-
-
-def _simulator_at(variable: str) -> Simulator:
-    text = os.environ.get(variable)
-    if not text:
-        missing(f"no simulator: set {variable} to the path of edgeline-sim")
-    path = Path(text).resolve()
-    if not path.is_file():
-        pytest.fail(f"{variable} names {text}, where there is no file: build the simulator first", pytrace=False)
-    return Simulator(path)
-
-
 @pytest.fixture(scope="session")
 def simulator() -> Simulator:
     """The optimised simulator that EDGELINE_SIM names."""
-    return _simulator_at("EDGELINE_SIM")
+    return Simulator(need_simulator())
 
 
 @pytest.fixture(scope="session")
 def checked_simulator() -> Simulator:
     """The simulator with sanitizers that EDGELINE_SIM_DEBUG names, else the one that EDGELINE_SIM names."""
-    return _simulator_at("EDGELINE_SIM_DEBUG" if os.environ.get("EDGELINE_SIM_DEBUG") else "EDGELINE_SIM")
+    return Simulator(need_simulator("EDGELINE_SIM_DEBUG" if os.environ.get("EDGELINE_SIM_DEBUG") else "EDGELINE_SIM"))
 
 
 def _features_beside(simulator: Simulator) -> Features:

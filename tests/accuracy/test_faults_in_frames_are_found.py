@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from conftest import REPOSITORY, missing
+from conftest import REPOSITORY
+from needs import missing
 
 SOURCES = REPOSITORY / "firmware" / "src"
 FUZZ = REPOSITORY / "tests" / "fuzz"

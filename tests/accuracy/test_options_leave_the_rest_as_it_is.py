@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from conftest import REPOSITORY, missing
+from conftest import REPOSITORY
+from needs import missing
 
 SOURCES = REPOSITORY / "firmware" / "src"
 PROGRAM = Path(__file__).with_name("options_program.c")

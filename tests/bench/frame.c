@@ -59,11 +59,17 @@ el_status bench_frame(const el_scene *scene, uint32_t number, const bench_settin
 #if EL_WITH_SAMPLES
         .samples = setting->samples,
 #endif
+#if EL_WITH_INTERLACED
+        .interlaced = setting->interlaced,
+#endif
         .over = setting->over,
         .memory = setting->arena,
         .memory_bytes = setting->arena_bytes,
         .sinks = {&sink},
     };
+#if EL_WITH_INTERLACED
+    sink.takes_gaps = setting->interlaced;
+#endif
     el_status status = el_init(renderer, &config);
     if (status == EL_OK && setting->again) {
         status = el_scene_play(scene, number, renderer);

@@ -13,6 +13,7 @@ typedef struct bench_setting {
     uint8_t uv_error_log2;
     bool depth_prepass;
     uint8_t samples;      /* per pixel; 0 is 1 */
+    bool interlaced;      /* one field of the frame, that of the even lines */
     bool again;           /* the same frame has been drawn before, unmeasured */
     const el_layer *over; /* or NULL */
     void *arena;

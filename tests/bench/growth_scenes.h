@@ -34,9 +34,9 @@ extern const growth_scene growth_layers_front_to_back;
 extern const growth_scene growth_layers_back_to_front_textured;
 extern const growth_scene growth_layers_front_to_back_textured;
 
-/* `frame` spheres of GROWTH_SPHERE_TRIANGLES each, GROWTH_SPHERES_SEEN to GROWTH_SPHERES; the first GROWTH_SPHERES_SEEN are
- * in the view, the others lie on its left, right, upper and lower side and behind the camera. Each a mesh; or all one; or those in the view
- * each, and the others, which all lie behind the camera then, one. */
+/* `frame` spheres of GROWTH_SPHERE_TRIANGLES each, GROWTH_SPHERES_SEEN to GROWTH_SPHERES; the first GROWTH_SPHERES_SEEN
+ * are in the view, the others lie on its left, right, upper and lower side and behind the camera. Each a mesh; or all
+ * one; or those in the view each, and the others, which all lie behind the camera then, one. */
 extern const growth_scene growth_outside_meshes;
 extern const growth_scene growth_outside_mesh;
 extern const growth_scene growth_outside_behind;

@@ -26,6 +26,8 @@ typedef enum extra {
     SAMPLES_8,
     PREPASS,
     HUD,
+    WIRES,
+    INTERLACED,
     COLOURS,
     IMAGE,
     MIRROR,
@@ -69,6 +71,8 @@ static const use uses[] = {
     S1("S1-8-samples", SAMPLES_8),
     S1("S1-pre-pass", PREPASS),
     {"S1-hud", "S1", "frame", &el_bench_scenes[0], &s1, EL_SHADE_GOURAUD, HUD},
+    {"S1-wires", "S1", "edge", &el_bench_scenes[0], &s1, EL_SHADE_GOURAUD, WIRES},
+    {"S1-interlaced", "S1", "frame", &el_bench_scenes[0], &s1, EL_SHADE_GOURAUD, INTERLACED},
     S2("S2", NOTHING),
     S2("S2-in-a-colour", COLOURS),
     S2("S2-pre-pass", PREPASS),
@@ -77,10 +81,12 @@ static const use uses[] = {
     S2("S2-image", IMAGE),
     S2("S2-mirrored", MIRROR),
     S2("S2-bilinear", SMOOTH),
+    {"S2-interlaced", "S2", "frame", &el_bench_scenes[0], &s2, EL_SHADE_TEXTURED, INTERLACED},
     S3("S3", NOTHING),
     S3("S3-blended", BLEND),
     S3("S3-fog", FOG),
     S3("S3-4-samples", SAMPLES_4),
+    {"S3-interlaced", "S3", "frame", &el_bench_scenes[0], &s3, EL_SHADE_FLAT, INTERLACED},
     TEAPOT("teapot", NOTHING),
     TEAPOT("teapot-light", LIGHT),
     TEAPOT("teapot-1-lamp", ONE_LAMP),
@@ -151,6 +157,8 @@ static void prepare(const use *u)
     lit = *u->mesh;
 }
 
+static const el_material wires = {.flags = EL_MATERIAL_WIRES, .colour = {20, 20, 60}};
+
 static const use *in_use;
 
 static el_status draw(uint32_t frame, el_renderer *renderer)
@@ -172,17 +180,34 @@ static el_status draw(uint32_t frame, el_renderer *renderer)
         }
         lit.colours = (const uint8_t(*)[3])colours;
     }
-    return el_draw(renderer, &lit, &pose, &material);
+    const el_status status = el_draw(renderer, &lit, &pose, &material);
+    return status == EL_OK && in_use->what == WIRES ? el_draw(renderer, &lit, &pose, &wires) : status;
+}
+
+/* Of how many of its units is told: those of its scene without it. */
+static uint32_t units_of(const use *u, const el_stats *plain)
+{
+    switch (u->unit[0]) {
+    case 'p':
+        return plain->pixels;
+    case 'v':
+        return u->mesh->vertex_count;
+    case 'e': /* each triangle's, so an inner edge counts twice */
+        return 3 * plain->triangles_listed;
+    default:
+        return 1;
+    }
 }
 
 static int measure(const use *u)
 {
     static el_renderer renderer;
-    static uint32_t plain_pixels;
+    static el_stats plain;
     const el_scene scene = {u->name, "", 0, u->scene->place_camera, draw, NULL};
     const bench_setting setting = {
         .band_lines = BAND_LINES,
         .depth_prepass = u->what == PREPASS,
+        .interlaced = u->what == INTERLACED,
         .samples = u->what == SAMPLES_4   ? 4
                    : u->what == SAMPLES_8 ? 8
                                           : 1,
@@ -195,7 +220,7 @@ static int measure(const use *u)
     prepare(u);
     const el_status status = bench_frame(&scene, 0, &setting, &renderer, &picture);
     if (u->what == NOTHING) {
-        plain_pixels = el_frame_stats(&renderer)->pixels;
+        plain = *el_frame_stats(&renderer);
     }
     bench_print(u->name);
     bench_print(" ");
@@ -204,7 +229,7 @@ static int measure(const use *u)
     bench_print(u->unit);
     bench_print(" crc ");
     bench_print_hex(picture.crc);
-    bench_print_item(" count ", u->unit[0] == 'p' ? plain_pixels : u->unit[0] == 'v' ? u->mesh->vertex_count : 1);
+    bench_print_item(" count ", units_of(u, &plain));
     bench_print("\n");
     return status == EL_OK ? 0 : 1;
 }

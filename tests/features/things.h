@@ -5,9 +5,7 @@
 #define EL_TEST_THINGS_H
 
 #include "edgeline.h"
-
-#define TENTHS_Q16(n) ((n)*65536 / 10)
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+#include "scene_units.h"
 
 enum {
     RINGS = 8,

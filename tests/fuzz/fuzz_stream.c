@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "plain_crc32.h"
 #include "stream/sink.h"
 #include "take.h"
 
@@ -22,18 +23,6 @@ typedef struct link {
     size_t line_bytes;
     unsigned calls;
 } link;
-
-static uint32_t plain_crc32(const uint8_t *bytes, size_t count)
-{
-    uint32_t crc = 0xFFFFFFFF;
-    for (size_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
-        }
-    }
-    return ~crc;
-}
 
 /* COBS, then type, seq, body and CRC. */
 static void expect_packet(const uint8_t *line, size_t count)

@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from needs import missing, need_simulator
+
 # The same examples every time, and none kept in the tree.
 settings.register_profile("edgeline", derandomize=True, database=None, deadline=None)
 settings.load_profile("edgeline")
@@ -25,13 +27,6 @@ def environment() -> dict[str, str]:
     """The environment for `python -m edgeline`, which need not be installed."""
     kept = {name: value for name, value in os.environ.items() if name != "EDGELINE_PORT"}
     return {**kept, "PYTHONPATH": str(HOST)}
-
-
-def missing(what: str) -> None:
-    """Skips the test where `what` is not there; in CI it has to be."""
-    if os.environ.get("CI"):
-        pytest.fail(f"{what}: has to be there in CI")
-    pytest.skip(what)
 
 
 @pytest.fixture
@@ -56,12 +51,8 @@ def edgeline(tmp_path: Path) -> Edgeline:
 
 @pytest.fixture(scope="session")
 def simulator() -> str:
-    """The path of edgeline-sim, from the environment variable EDGELINE_SIM."""
-    path = os.environ.get("EDGELINE_SIM", "")
-    if not path:
-        missing("EDGELINE_SIM does not name the simulator's binary")
-    assert Path(path).is_file(), f"EDGELINE_SIM={path}: no such file"
-    return str(Path(path).resolve())
+    """The path of edgeline-sim, which EDGELINE_SIM may name."""
+    return str(need_simulator())
 
 
 @pytest.fixture(scope="session")
@@ -75,7 +66,6 @@ def display() -> Iterator[str]:
     if xvfb is None:
         if before is None or "PYTEST_XDIST_WORKER" in os.environ:
             missing("neither Xvfb nor a display that no other test uses")
-        assert before is not None
         yield before
         return
     read, write = os.pipe()

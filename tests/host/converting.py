@@ -10,7 +10,6 @@ from types import ModuleType
 
 import pytest
 
-from conftest import missing
 from edgeline.convert import command, preview
 from edgeline.convert.mesh import Soup
 from edgeline.convert.model import source_from
@@ -18,6 +17,7 @@ from edgeline.convert.obj import Material, ObjModel
 from edgeline.convert.source import Picture, soup_of, with_normals
 from edgeline.convert.texels import Texture
 from edgeline.errors import EdgelineError
+from needs import missing
 
 
 def _run(*words: object) -> int:

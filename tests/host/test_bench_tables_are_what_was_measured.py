@@ -12,7 +12,7 @@ import pytest
 BENCH = Path(__file__).parents[1] / "bench"
 sys.path.insert(0, str(BENCH))
 
-from bench_tool import frames, machines, models, tables  # noqa: E402
+from bench_tool import frames, machines, models, pico, tables  # noqa: E402
 
 
 @pytest.fixture
@@ -37,6 +37,31 @@ def test_tables_in_documents_are_the_recorded_figures(
 ) -> None:
     text = path.read_text("utf-8")
     assert tables.embed(text, measured, recorded["code"]) == text
+
+
+@pytest.mark.parametrize("path", tables.DOCUMENTS, ids=lambda path: path.name)
+def test_the_pico_s_table_is_the_recorded_one(path: Path) -> None:
+    text = path.read_text("utf-8")
+    assert pico.embed(text, json.loads(pico.RESULT.read_text("utf-8"))) == text
+
+
+def test_a_frame_of_the_pico_is_hidden_when_it_takes_what_the_wire_takes() -> None:
+    whole = {
+        "scene": "solid",
+        "course": "whole",
+        "wire_cycles": 2457600,
+        "idle_cycles": 0,
+        "bands": 60,
+        "late_bands": 5,
+    }
+    courses = [{**whole, "cycles": 2482000}, {**whole, "cycles": 2483000}]
+    courses.append({**whole, "course": "still", "cycles": 25000, "wire_cycles": 0})
+    lines = pico.table({"clock_hz": 125000000, "courses": courses}).splitlines()[2:]
+    assert lines == [
+        "| solid | whole | 2.48 M | 0.00 M | 2.46 M | 60, 5 | 50.4 | yes |",
+        "| solid | whole | 2.48 M | 0.00 M | 2.46 M | 60, 5 | 50.3 | no |",
+        "| solid | still | 0.025 M | 0.00 M | 0.00 M | 60, 5 | 5,000.0 |  |",
+    ]
 
 
 def test_what_stands_between_the_marks_is_replaced_and_nothing_else(

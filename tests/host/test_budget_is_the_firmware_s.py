@@ -17,9 +17,9 @@ from typing import Any
 import pytest
 
 import make_budget
-from conftest import missing
 from edgeline import budget_facts as facts
 from edgeline.budget import PANELS, Wish, account, advice, array_size, copies
+from needs import missing
 
 SEED = 20261122
 ROUNDS = 60

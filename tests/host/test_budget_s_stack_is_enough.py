@@ -18,8 +18,8 @@ from pathlib import Path
 import pytest
 
 import make_budget
-from conftest import missing
 from edgeline.budget_facts import EL_BUDGET_STACK_BYTES, EL_BUDGET_WORKERS_STACK_BYTES
+from needs import missing
 
 LAYERS = ("base", "geometry", "raster", "frame", "panel", "stream")
 CORES = {

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from conftest import HOST, environment, missing
+from conftest import HOST, environment
 from edgeline.cli import main
 from edgeline.codec import Pixels
 from edgeline.colour import to_rgb
@@ -26,6 +26,7 @@ from edgeline.exports.mp4 import arguments
 from edgeline.recorder import recorder
 from edgeline.recording import opened
 from fake_device import FakeDevice, PtyDevice
+from needs import missing
 from recorded import as_file, frames_of, write_recording
 
 FRAMES = 12

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import missing
+from needs import missing
 
 ROOT = Path(__file__).parents[2]
 FUZZ = ROOT / "tests" / "fuzz"

@@ -13,10 +13,10 @@ import pytest
 
 from cases import CASES
 from channel import Faults
-from conftest import missing
 from conversation import Case, Conversation, WrongError
 from edgeline.picture import Picture
 from edgeline.stream import Stream
+from needs import missing
 
 STREAM = Path(__file__).parents[2] / "firmware" / "src" / "stream"
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from packages_tools import FIRMWARE, NATIVE, STRICT, compile_units, library_sources, need_tool
+from needs import need_tool
+from packages_tools import FIRMWARE, NATIVE, STRICT, compile_units, library_sources
 
 
 @pytest.fixture(scope="session")

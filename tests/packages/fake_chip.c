@@ -11,9 +11,9 @@
 #include "base/bus.h"
 #include "base/port.h"
 #include "chip.h"
+#include "wire_record.h"
 
 enum { SPI_QUEUE = 4, UART_QUEUE = 16, STEP_NS = 1000, TICK_STEPS = 1000, MEMORY_WRITE = 0x2C, MEMORY_WRITES = 3 };
-enum { TRACE_COMMAND, TRACE_DATA, TRACE_RESET, TRACE_TIME };
 
 static FILE *trace;
 static uint32_t unwritten_ns;
@@ -49,16 +49,8 @@ static void record(int kind, int value)
     if (trace == NULL) {
         return;
     }
-    if (unwritten_ns > 0) {
-        fputc(TRACE_TIME, trace);
-        fputc(0, trace);
-        for (unsigned shift = 0; shift < 32; shift += 8) {
-            fputc((int)(unwritten_ns >> shift & 255U), trace);
-        }
-        unwritten_ns = 0;
-    }
-    fputc(kind, trace);
-    fputc(value, trace);
+    write_record(trace, unwritten_ns, kind, value);
+    unwritten_ns = 0;
 }
 
 static void leave_wire(unsigned byte)

@@ -1,24 +1,18 @@
-"""What the tests of the packages share: tools that may be missing, the library compiled as its users compile it, and
-what a display shows of a wire trace.
-
-Two variables name places: EDGELINE_SIM is the simulator's binary (build/sim/edgeline-sim where it is not set), and CI
-makes a missing tool a failure instead of a skip.
-"""
+"""What the packages' tests share: the library as its users compile it, and what a display shows of a wire trace."""
 
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 import numpy.typing as npt
-import pytest
+
+from needs import need_simulator, need_tool
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 FIRMWARE = REPOSITORY / "firmware"
@@ -54,21 +48,6 @@ RISCV = Target(
     "gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf",
 )
 NATIVE = Target(("cc",), ("c++",), "gcc g++")
-
-
-def missing(what: str) -> NoReturn:
-    """Skips the test where `what` is not there; in CI it has to be."""
-    if os.environ.get("CI"):
-        pytest.fail(f"{what} (CI is set: nothing may be skipped)", pytrace=False)
-    pytest.skip(what)
-
-
-def need_tool(name: str, package: str) -> str:
-    """The path of the program `name`; skips the test where it is not installed."""
-    path = shutil.which(name)
-    if path is None:
-        missing(f"no {name}: install {package}")
-    return path
 
 
 def tried(
@@ -115,14 +94,6 @@ def library_sources() -> list[Path]:
     return sorted(path for path in (FIRMWARE / "src").rglob("*") if path.suffix in (".c", ".cpp", ".S"))
 
 
-def simulator() -> Path:
-    """The simulator; skips the test where it is not built."""
-    path = Path(os.environ.get("EDGELINE_SIM") or REPOSITORY / "build" / "sim" / "edgeline-sim").resolve()
-    if not path.is_file():
-        missing(f"no simulator at {path}: build it, or set EDGELINE_SIM")
-    return path
-
-
 def convert(source: Path, result: Path, *options: str) -> Path:
     """The `result` (.elm or .h) that `edgeline convert` makes of a model."""
     run(sys.executable, "-m", "edgeline", "convert", source, "-o", result, *options, cwd=REPOSITORY / "host")
@@ -139,12 +110,12 @@ def triangle_mesh(folder: Path) -> Path:
 def look(trace: Path, panel: str, rotation: int, size: tuple[int, int]) -> Picture:
     """What the display model shows of a wire trace, of (width, height); fails on what the chip would not take."""
     raw = trace.with_suffix(".rgb565")
-    run(simulator(), "look", "--panel", panel, "--rotation", str(rotation), trace, "--raw", raw)
+    run(need_simulator(), "look", "--panel", panel, "--rotation", str(rotation), trace, "--raw", raw)
     return np.fromfile(raw, "<u2").reshape(size[1], size[0])
 
 
 def render(folder: Path, size: tuple[int, int], *arguments: str | Path) -> Picture:
     """The first frame of the simulator's `render` with these arguments, of (width, height)."""
     raw = folder / "render.rgb565"
-    run(simulator(), "render", *arguments, "--frames", "1", "--raw", raw)
+    run(need_simulator(), "render", *arguments, "--frames", "1", "--raw", raw)
     return np.fromfile(raw, "<u2").reshape(size[1], size[0])

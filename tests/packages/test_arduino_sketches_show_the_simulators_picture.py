@@ -17,6 +17,7 @@ import pytest
 from PIL import Image
 
 from edgeline import framing, protocol
+from needs import missing, need_tool
 from packages_tools import (
     ARM,
     FIRMWARE,
@@ -30,8 +31,6 @@ from packages_tools import (
     convert,
     library_sources,
     look,
-    missing,
-    need_tool,
     render,
     run,
     triangle_mesh,

@@ -11,13 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from packages_tools import HERE, REPOSITORY, TRIANGLE_VIEW, need_tool, run, simulator, triangle_mesh, tried
+from needs import need_simulator, need_tool
+from packages_tools import HERE, REPOSITORY, TRIANGLE_VIEW, run, triangle_mesh, tried
 
 
 @pytest.fixture(scope="session")
 def expected_crc(tmp_path_factory: pytest.TempPathFactory) -> str:
     mesh = triangle_mesh(tmp_path_factory.mktemp("triangle"))
-    output = run(simulator(), "render", "--mesh", mesh, *TRIANGLE_VIEW, "--size", "320x240", "--crc")
+    output = run(need_simulator(), "render", "--mesh", mesh, *TRIANGLE_VIEW, "--size", "320x240", "--crc")
     return output.decode().strip()
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from needs import need_tool
 from packages_tools import (
     FIRMWARE,
     HERE,
@@ -17,7 +18,6 @@ from packages_tools import (
     TRIANGLE_VIEW,
     library_sources,
     look,
-    need_tool,
     render,
     run,
     triangle_mesh,

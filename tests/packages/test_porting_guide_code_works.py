@@ -12,21 +12,8 @@ import numpy as np
 import pytest
 
 from edgeline import framing, protocol
-from packages_tools import (
-    ARM,
-    FIRMWARE,
-    HERE,
-    NATIVE,
-    RISCV,
-    STRICT,
-    Picture,
-    Target,
-    compile_units,
-    look,
-    need_tool,
-    run,
-    tried,
-)
+from needs import need_tool
+from packages_tools import ARM, FIRMWARE, HERE, NATIVE, RISCV, STRICT, Picture, Target, compile_units, look, run, tried
 
 GUIDE = FIRMWARE / "PORTING.md"
 SOURCES = ["bus.c", "bus_dma.c", "port.c", "board.c", "trap.c", "first_picture.c"]

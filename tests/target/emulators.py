@@ -9,7 +9,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from target_tools import BUILD, REPOSITORY, need_tool, only_one
+from needs import need_tool
+from target_tools import BUILD, REPOSITORY, only_one
 
 TARGET = Path(__file__).resolve().parent
 STATUS_FAULT = 99

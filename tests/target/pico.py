@@ -18,7 +18,8 @@ from typing import Any
 
 from edgeline.events import Event, Frame, Log, SetRate
 from edgeline.session import Session
-from target_tools import BUILD, Image, missing, need_tool, only_one
+from needs import missing, need_tool
+from target_tools import BUILD, Image, only_one
 
 HARNESS = Path(__file__).parent / "rp2040"
 

@@ -1,6 +1,5 @@
-"""What a Pico's frames cost beside what its display's wire can carry, in the emulator:
-
-    PYTHONPATH=host python tests/target/pico_wire.py [--record]
+"""What a Pico's frames cost beside what its display's wire can carry, in the emulator. As a program, which
+tests/bench/run --pico runs, it prints JSON; status 77 when a tool is missing.
 
 For each scene of the demo: cycles of a frame; those in which the core slept at the ends of bands, because the DMA still
 had the band before; and those in which the wire was in use. A frame whose drawing is hidden takes the wire's time and
@@ -8,12 +7,11 @@ no more. Three courses: every frame sent whole; only what changes (EDGELINE_SPAR
 still.
 
 The figures are rp2040js' estimate with memory that never waits: a Pico's flash has a cache of 16 KB, whose misses come
-to them. --record writes them to tests/bench/results/pico.json, which the test compares with.
+to them.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import tempfile
@@ -21,7 +19,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 if __name__ == "__main__":  # as a program it stands outside of pytest's paths
-    sys.path.insert(0, str(Path(__file__).parent))
+    sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
+
+import pytest
 
 from edgeline.protocol import Control
 from pico import Host, Pico
@@ -43,8 +43,6 @@ CASES += [("teapot", "still"), ("solid", "still")]
 SETTLED = 3
 """Frames before the first that counts: one that was begun before FRAME came, one in which all has changed."""
 COUNTED = 4
-HIDDEN = 1.01
-"""Cycles of a frame over the wire's, up to which drawing counts as hidden: the commands take the rest."""
 
 
 @dataclass(frozen=True)
@@ -64,11 +62,6 @@ class Course:
     @property
     def frames_per_s(self) -> float:
         return CLOCK_HZ / self.cycles
-
-    @property
-    def hidden(self) -> str:
-        """Whether a frame that is sent whole takes no longer than the wire."""
-        return "" if self.course != "whole" else "yes" if self.cycles <= HIDDEN * self.wire_cycles else "no"
 
 
 def image_for(course: str) -> Image:
@@ -107,37 +100,20 @@ def measure(scene: str, course: str, folder: Path) -> Course:
     )
 
 
-def table(courses: list[Course]) -> str:
-    """A Markdown table."""
-    lines = [
-        f"| scene ({LABEL}) | sent | cycles | core at work | core idle | wire in use | bands, late | frames/s "
-        "| hidden |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for one in courses:
-        millions = (one.cycles, one.cycles - one.idle_cycles, one.idle_cycles, one.wire_cycles)
-        cells = [one.scene, one.course, *(f"{cycles / 1e6:.3f} M" for cycles in millions)]
-        cells += [f"{one.bands}, {one.late_bands}", f"{one.frames_per_s:.1f}", one.hidden]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
-
-
 def recorded() -> dict[tuple[str, str], Course]:
-    """What --record wrote, by scene and course."""
+    """What tests/bench/run --record-pico wrote, by scene and course."""
     rows = json.loads(RESULTS.read_text(encoding="utf-8"))["courses"]
     return {(row["scene"], row["course"]): Course(**row) for row in rows}
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="A Pico's frames beside its display's wire, in the emulator.")
-    parser.add_argument("--record", action="store_true", help=f"write {RESULTS.relative_to(REPOSITORY)}")
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        courses = [measure(scene, course, Path(folder)) for scene, course in CASES]
-    print(table(courses))
-    if options.record:
-        text = json.dumps({"figures": LABEL, "courses": [asdict(one) for one in courses]}, indent=1)
-        RESULTS.write_text(text + "\n", encoding="utf-8")
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            courses = [asdict(measure(scene, course, Path(folder))) for scene, course in CASES]
+    except pytest.skip.Exception as error:
+        print(error, file=sys.stderr)
+        return 77
+    print(json.dumps({"figures": LABEL, "clock_hz": int(CLOCK_HZ), "courses": courses}))
     return 0
 
 

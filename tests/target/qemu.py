@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from target_tools import need_tool
+from needs import need_tool
 
 CONNECT_S = 10.0
 READ_S = 0.05

@@ -1,8 +1,7 @@
-"""What all tests of boards share: tools that may be missing, images of boards, faulty variants of them, the simulator.
+"""What all tests of boards share: images of boards, faulty variants of them, the simulator.
 
-What is missing is skipped by name on a developer's machine and is a failure where the environment variable CI is set,
-so that a gate cannot pass by not running. Two variables name places: EDGELINE_SIM is the simulator's binary
-(build/sim/edgeline-sim where it is not set), EDGELINE_BUILD the folder that boards are built into (build).
+Two variables name places: EDGELINE_SIM is the simulator's binary (build/sim/edgeline-sim where it is not set),
+EDGELINE_BUILD the folder that boards are built into (build).
 """
 
 from __future__ import annotations
@@ -15,11 +14,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 import numpy.typing as npt
 import pytest
+
+from needs import need_simulator, need_tool
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -30,21 +30,6 @@ Picture = npt.NDArray[np.uint16]
 
 Replacements = Mapping[str, Sequence[tuple[str, str]]]
 """Path below the repository -> what to replace by what; each text must be there exactly once."""
-
-
-def missing(what: str) -> NoReturn:
-    """Skips the test where `what` is not there; in CI it has to be."""
-    if os.environ.get("CI"):
-        pytest.fail(f"{what} (CI is set: nothing may be skipped)", pytrace=False)
-    pytest.skip(what)
-
-
-def need_tool(name: str, package: str) -> str:
-    """The path of the program `name`; skips the test where it is not installed."""
-    path = shutil.which(name)
-    if path is None:
-        missing(f"no {name}: install {package}")
-    return path
 
 
 @contextmanager
@@ -187,13 +172,7 @@ class Simulator:
 
 def find_simulator() -> Simulator:
     """The simulator that EDGELINE_SIM names, else the one of the preset `sim`."""
-    named = os.environ.get("EDGELINE_SIM")
-    path = Path(named or REPOSITORY / "build" / "sim" / "edgeline-sim").resolve()
-    if not path.is_file():
-        if named:
-            pytest.fail(f"EDGELINE_SIM names {named}, where there is no file: build the simulator first", pytrace=False)
-        missing("no simulator: set EDGELINE_SIM to the path of edgeline-sim")
-    return Simulator(path)
+    return Simulator(need_simulator())
 
 
 def assert_same_picture(shown: Picture, expected: Picture, what: str) -> None:

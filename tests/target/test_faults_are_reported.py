@@ -16,7 +16,8 @@ from pathlib import Path
 import pytest
 
 from edgeline.session import Damage, Event, Log, Session
-from target_tools import BUILD, REPOSITORY, need_tool, only_one
+from needs import need_tool
+from target_tools import BUILD, REPOSITORY, only_one
 
 SOURCE = Path(__file__).parent / "faults"
 TOOLCHAIN = REPOSITORY / "firmware" / "boards" / "cortex_m" / "arm-none-eabi.cmake"

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from emulators import CORES, Core, build, run, seeded_copy
-from target_tools import BUILD, REPOSITORY, missing, need_tool
+from needs import missing, need_tool
+from target_tools import BUILD, REPOSITORY
 
 ALL_FRAMES = 10
 """Every tenth of the first 120 frames is in the golden file."""

@@ -35,7 +35,7 @@ def test_no_scene_takes_longer_than_was_recorded(scene: str, course: str, measur
     found = measured(scene, course)
     was = pico_wire.recorded()[scene, course]
     assert found.cycles <= was.cycles * (1 + TOLERANCE), (
-        f"{found}\nwas {was}\nif it is meant: tests/target/pico_wire.py --record"
+        f"{found}\nwas {was}\nif it is meant: tests/bench/run --record-pico"
     )
 
 

@@ -13,7 +13,8 @@ import pytest
 import unicorn
 from unicorn import arm_const
 
-from target_tools import REPOSITORY, need_tool
+from needs import need_tool
+from target_tools import REPOSITORY
 
 SOURCE = REPOSITORY / "firmware/boards/cortex_m/multiply64.S"
 CODE, RETURN, STACK = 0x1000, 0x2000, 0x4000

@@ -18,9 +18,10 @@ import qemu
 import qemu_virt
 from edgeline.link import Link
 from edgeline.session import Connected, Event, Log, Session
+from needs import need_tool
 from qemu_demo import SCENES, START, Progress, becomes_true, leave_in_mid_frame, streaming
 from qemu_virt import MACHINE, OPTIONS
-from target_tools import Image, need_tool
+from target_tools import Image
 
 PATIENCE_S = 20.0
 """For what takes the board well under a second, or 4 s where its watchdog has to bite; a build server may be slow."""

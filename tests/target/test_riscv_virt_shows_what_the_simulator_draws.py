@@ -11,8 +11,9 @@ import pytest
 
 import qemu
 import qemu_virt
+from needs import need_tool
 from qemu_demo import FRAMES, SCENES
-from target_tools import Image, LookError, Simulator, assert_same_picture, need_tool
+from target_tools import Image, LookError, Simulator, assert_same_picture
 
 STACK_MARGIN = 512
 """Bytes of the stack that were never used: for the next compiler. Traps have a stack of their own."""

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from target_tools import REPOSITORY, Image, build_board, need_tool
+from needs import need_tool
+from target_tools import REPOSITORY, Image, build_board
 
 MAKE_UF2 = REPOSITORY / "firmware/boards/rp2040/make_uf2.py"
 FLASH, RAM = 0x1000_0000, 0x2000_0000

@@ -11,7 +11,8 @@ import re
 import pytest
 
 from emulators import CORES, STATUS_FAULT, Core, build, run, seeded_copy, unity_options
-from target_tools import REPOSITORY, Simulator, missing
+from needs import missing
+from target_tools import REPOSITORY, Simulator
 
 # What cannot run without an operating system, and why. tests/unit/CMakeLists.txt leaves the same out.
 NATIVE_ONLY = {"test_stream_ports": "sockets and pseudo-terminals", "test_workers": "threads"}

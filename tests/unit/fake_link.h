@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/port.h"
+#include "plain_crc32.h"
 #include "plain_split.h"
 #include "unity.h"
 
@@ -31,18 +32,6 @@ static inline uint32_t random_below(uint32_t *seed, uint32_t limit)
 }
 
 /* --- Plain twins ----------------------------------------------------------------------------------------------- */
-
-static inline uint32_t plain_crc32(const uint8_t *bytes, size_t count)
-{
-    uint32_t crc = 0xFFFFFFFF;
-    for (size_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
-        }
-    }
-    return ~crc;
-}
 
 /* By the definition: cut into blocks, with a 00 thought at the end of the packet. */
 static inline size_t plain_cobs_encode(const uint8_t *bytes, size_t count, uint8_t *out)

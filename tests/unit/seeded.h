@@ -76,4 +76,12 @@ __attribute__((format(printf, 2, 3))) static inline void fail_at(const seeded *s
     TEST_FAIL_MESSAGE(message);
 }
 
+/* Fails with the condition's own text. */
+#define EXPECT(seed, condition)                                                                                        \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            fail_at(seed, "line %d: %s", __LINE__, #condition);                                                        \
+        }                                                                                                              \
+    } while (0)
+
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
+#include "elm_bytes.h"
 #include "geometry/elm.h"
 #include "unity.h"
 
@@ -34,18 +34,6 @@ static uint8_t *const file = (uint8_t *)words;
 static el_mesh mesh;
 static el_texture texture;
 
-static void put(size_t at, uint32_t value, size_t bytes)
-{
-    for (size_t i = 0; i < bytes; i++) {
-        file[at + i] = (uint8_t)(value >> (8 * i));
-    }
-}
-
-static void seal(void)
-{
-    put(12, el_crc32(0, file + 16, SIZE - 16), 4);
-}
-
 static el_elm_status open_all(void)
 {
     return el_elm_open(file, SIZE, &mesh, &texture);
@@ -54,8 +42,8 @@ static el_elm_status open_all(void)
 /* Writes `value` where the header has it, makes the CRC right again, and says what the reader answers. */
 static el_elm_status status_with(size_t at, uint32_t value, size_t bytes)
 {
-    put(at, value, bytes);
-    seal();
+    elm_put(file, at, value, bytes);
+    elm_seal(file, SIZE);
     return open_all();
 }
 
@@ -63,18 +51,18 @@ void setUp(void)
 {
     memset(words, 0, sizeof words);
     memcpy(file, "ELM\x1a", 4);
-    put(4, 1, 2);
-    put(8, SIZE, 4);
-    put(16, VERTICES, 2);
-    put(18, TRIANGLES, 2);
-    put(20, 0xF7, 1); /* -9 */
-    put(CONTENT_AT, 31, 1);
-    put(22, 2, 1);
-    put(23, 1, 1);
-    put(24, 0xC000, 2); /* -16384 */
-    put(26, 7, 2);
-    put(28, 0xFFF8, 2); /* -8 */
-    put(RADIUS_AT, 16700, 2);
+    elm_put(file, 4, 1, 2);
+    elm_put(file, 8, SIZE, 4);
+    elm_put(file, 16, VERTICES, 2);
+    elm_put(file, 18, TRIANGLES, 2);
+    elm_put(file, 20, 0xF7, 1); /* -9 */
+    elm_put(file, CONTENT_AT, 31, 1);
+    elm_put(file, 22, 2, 1);
+    elm_put(file, 23, 1, 1);
+    elm_put(file, 24, 0xC000, 2); /* -16384 */
+    elm_put(file, 26, 7, 2);
+    elm_put(file, 28, 0xFFF8, 2); /* -8 */
+    elm_put(file, RADIUS_AT, 16700, 2);
     memcpy(file + POSITIONS_AT, positions, sizeof positions);
     memcpy(file + TRIANGLES_AT, triangles, sizeof triangles);
     for (uint8_t i = 0; i < 15; i++) {
@@ -88,7 +76,7 @@ void setUp(void)
     for (uint8_t i = 0; i < 16; i++) {
         file[TEXELS_AT + i] = (uint8_t)(i * 16);
     }
-    seal();
+    elm_seal(file, SIZE);
     memset(&mesh, 0x5a, sizeof mesh);
     memset(&texture, 0x5a, sizeof texture);
 }
@@ -125,10 +113,10 @@ static void test_absent_sections_are_null(void)
 {
     memmove(file + COLOURS_AT, file + NORMALS_AT, 16); /* what stays: positions, triangles, normals */
     enum { SHORT_SIZE = COLOURS_AT + 16 };
-    put(8, SHORT_SIZE, 4);
-    put(CONTENT_AT, 4, 1);
-    put(22, 0, 2);
-    put(12, el_crc32(0, file + 16, SHORT_SIZE - 16), 4);
+    elm_put(file, 8, SHORT_SIZE, 4);
+    elm_put(file, CONTENT_AT, 4, 1);
+    elm_put(file, 22, 0, 2);
+    elm_seal(file, SHORT_SIZE);
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, el_elm_open(file, SHORT_SIZE, &mesh, &texture));
     TEST_ASSERT_EQUAL_PTR(file + COLOURS_AT, mesh.normals);
     TEST_ASSERT_NULL(mesh.colours);
@@ -225,9 +213,9 @@ static void test_a_texture_needs_texture_coordinates(void)
 {
     enum { SHORT_SIZE = SIZE - (TEXELS_AT - UVS_AT) };
     memmove(file + UVS_AT, file + TEXELS_AT, SIZE - TEXELS_AT);
-    put(8, SHORT_SIZE, 4);
-    put(CONTENT_AT, 31 - 8, 1);
-    put(12, el_crc32(0, file + 16, SHORT_SIZE - 16), 4);
+    elm_put(file, 8, SHORT_SIZE, 4);
+    elm_put(file, CONTENT_AT, 31 - 8, 1);
+    elm_seal(file, SHORT_SIZE);
     TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, el_elm_open(file, SHORT_SIZE, &mesh, &texture));
 }
 
@@ -258,13 +246,12 @@ static uint32_t longer_words[WITH_CLUSTERS / 4];
 static el_elm_status open_with(const el_cluster clusters[2], uint32_t count)
 {
     uint8_t *const longer = (uint8_t *)longer_words;
-    put(8, WITH_CLUSTERS, 4);
-    put(CONTENT_AT, 63, 1);
+    elm_put(file, 8, WITH_CLUSTERS, 4);
+    elm_put(file, CONTENT_AT, 63, 1);
     memcpy(longer, file, SIZE);
     memcpy(longer + CLUSTERS_AT, &count, sizeof count);
     memcpy(longer + CLUSTERS_AT + 4, clusters, 2 * sizeof clusters[0]);
-    const uint32_t crc = el_crc32(0, longer + 16, WITH_CLUSTERS - 16);
-    memcpy(longer + 12, &crc, sizeof crc);
+    elm_seal(longer, WITH_CLUSTERS);
     return el_elm_open(longer, WITH_CLUSTERS, &mesh, &texture);
 }
 
@@ -319,12 +306,12 @@ static void test_index_range(void)
 
 static void test_the_sphere_holds_every_vertex(void)
 {
-    put(24, 0, 2);
-    put(26, 0, 2);
-    put(28, 0, 2); /* around the origin, the farthest vertex is 32768 away */
+    elm_put(file, 24, 0, 2);
+    elm_put(file, 26, 0, 2);
+    elm_put(file, 28, 0, 2); /* around the origin, the farthest vertex is 32768 away */
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, status_with(RADIUS_AT, 32768, 2));
     TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, status_with(RADIUS_AT, 32767, 2));
-    put(24, 0x7FFF, 2); /* 65535 away: as far as it goes */
+    elm_put(file, 24, 0x7FFF, 2); /* 65535 away: as far as it goes */
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, status_with(RADIUS_AT, 65535, 2));
     TEST_ASSERT_EQUAL_INT(EL_ELM_RANGE, status_with(RADIUS_AT, 65534, 2));
 }
@@ -372,9 +359,9 @@ static void test_fuzzed_files_are_refused_or_safe(void)
             file[16 + next_random(&state) % range] = (uint8_t)next_random(&state);
         }
         const size_t size = next_random(&state) % 8 != 0 ? SIZE : next_random(&state) % (SIZE + 1);
-        put(8, (uint32_t)size, 4);
+        elm_put(file, 8, (uint32_t)size, 4);
         if (size >= 16) {
-            put(12, el_crc32(0, file + 16, size - 16), 4);
+            elm_seal(file, size);
         }
         if (el_elm_open(file, size, &mesh, &texture) == EL_ELM_OK) {
             accepted++;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
+#include "elm_bytes.h"
 #include "geometry/elm.h"
 #include "raster/texture.h"
 #include "unity.h"
@@ -36,23 +36,16 @@ static uint8_t *const file = (uint8_t *)words;
 static el_mesh mesh;
 static el_elm_surface surface;
 
-static void put(size_t at, uint32_t value, size_t bytes)
-{
-    for (size_t i = 0; i < bytes; i++) {
-        file[at + i] = (uint8_t)(value >> (8 * i));
-    }
-}
-
 static el_elm_status open_as(size_t size)
 {
-    put(8, (uint32_t)size, 4);
-    put(12, el_crc32(0, file + 16, size - 16), 4);
+    elm_put(file, 8, (uint32_t)size, 4);
+    elm_seal(file, size);
     return el_elm_open_surface(file, size, &mesh, &surface);
 }
 
 static el_elm_status status_with(size_t at, uint32_t value)
 {
-    put(at, value, 1);
+    elm_put(file, at, value, 1);
     return open_as(SIZE);
 }
 
@@ -60,15 +53,15 @@ void setUp(void)
 {
     memset(words, 0, sizeof words);
     memcpy(file, "ELM\x1a\2", 5);
-    put(16, VERTICES, 2);
-    put(18, 1, 2);
-    put(CONTENT_AT, UVS_AND_SURFACE, 1);
-    put(22, 3, 1);
-    put(23, 2, 1);
-    put(30, 2, 2);
-    put(POSITIONS_AT + 6, 1, 2);
-    put(POSITIONS_AT + 14, 1, 2);
-    put(TRIANGLES_AT + 2, 0x00020001, 4);
+    elm_put(file, 16, VERTICES, 2);
+    elm_put(file, 18, 1, 2);
+    elm_put(file, CONTENT_AT, UVS_AND_SURFACE, 1);
+    elm_put(file, 22, 3, 1);
+    elm_put(file, 23, 2, 1);
+    elm_put(file, 30, 2, 2);
+    elm_put(file, POSITIONS_AT + 6, 1, 2);
+    elm_put(file, POSITIONS_AT + 14, 1, 2);
+    elm_put(file, TRIANGLES_AT + 2, 0x00020001, 4);
     static const uint8_t head[12] = {
         EL_MATERIAL_TWO_SIDED, 128, EL_IMAGE_INDEX4, 3, EL_WRAP_CLAMP, EL_WRAP_MIRROR, 7, 0, 15};
     memcpy(file + SURFACE_AT, head, sizeof head);
@@ -120,10 +113,10 @@ static void test_every_member_is_what_the_file_says(void)
 /* 8 x 4 texels and nothing else: what the fastest loops draw, but for its borders. */
 static void test_bare_texels_are_no_image(void)
 {
-    put(SURFACE_AT + 2, EL_IMAGE_RGB565, 1);
-    put(SURFACE_AT + 3, 1, 1);
-    put(SURFACE_AT + 6, 0, 1);
-    put(SURFACE_AT + 8, 0, 1);
+    elm_put(file, SURFACE_AT + 2, EL_IMAGE_RGB565, 1);
+    elm_put(file, SURFACE_AT + 3, 1, 1);
+    elm_put(file, SURFACE_AT + 6, 0, 1);
+    elm_put(file, SURFACE_AT + 8, 0, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, open_as(PALETTE_AT + 64));
     TEST_ASSERT_EQUAL_PTR(file + PALETTE_AT, surface.levels[0].texels);
     TEST_ASSERT_NULL(surface.levels[0].image);
@@ -136,26 +129,26 @@ static void test_bare_texels_are_no_image(void)
 static void test_a_surface_without_a_picture(void)
 {
     memset(file + SURFACE_AT + 2, 0, 10);
-    put(22, 0, 2);
+    elm_put(file, 22, 0, 2);
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, open_as(PLAIN_SIZE));
     TEST_ASSERT_NULL(surface.levels[0].texels);
     TEST_ASSERT_NULL(surface.levels[0].image);
     TEST_ASSERT_EQUAL_UINT8(128, surface.alpha);
     for (size_t at = SURFACE_AT + 2; at < PLAIN_SIZE; at++) {
-        put(at, 1, 1);
+        elm_put(file, at, 1, 1);
         TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_as(PLAIN_SIZE));
-        put(at, 0, 1);
+        elm_put(file, at, 0, 1);
     }
-    put(23, 1, 1);
+    elm_put(file, 23, 1, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_as(PLAIN_SIZE));
 }
 
 static void test_a_picture_needs_texture_coordinates(void)
 {
     memmove(file + UVS_AT, file + SURFACE_AT, SIZE - SURFACE_AT);
-    put(CONTENT_AT, 64, 1);
-    put(22, 0, 2);
-    put(UVS_AT + 3, 1, 1);
+    elm_put(file, CONTENT_AT, 64, 1);
+    elm_put(file, 22, 0, 2);
+    elm_put(file, UVS_AT + 3, 1, 1);
     for (size_t size = UVS_AT + 12; size <= SIZE; size += 4) {
         TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_as(size));
     }
@@ -166,20 +159,20 @@ static void test_versions_are_told_apart(void)
     el_texture texture;
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, open_as(SIZE));
     TEST_ASSERT_EQUAL_INT(EL_ELM_VERSION, el_elm_open(file, SIZE, &mesh, &texture));
-    put(4, 3, 1);
+    elm_put(file, 4, 3, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_VERSION, open_as(SIZE));
-    put(4, 0, 1);
+    elm_put(file, 4, 0, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_VERSION, open_as(SIZE));
-    put(4, 1, 1);
+    elm_put(file, 4, 1, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_as(SIZE));
     /* As a file of version 1 it has no surface. */
-    put(CONTENT_AT, 8, 1);
-    put(22, 0, 2);
+    elm_put(file, CONTENT_AT, 8, 1);
+    elm_put(file, 22, 0, 2);
     TEST_ASSERT_EQUAL_INT(EL_ELM_OK, open_as(SURFACE_AT));
     TEST_ASSERT_EQUAL_UINT8(255, surface.alpha);
     TEST_ASSERT_EQUAL_UINT8(0, surface.flags);
     TEST_ASSERT_NULL(surface.levels[0].texels);
-    put(4, 2, 1);
+    elm_put(file, 4, 2, 1);
     TEST_ASSERT_EQUAL_INT(EL_ELM_CORRUPT, open_as(SURFACE_AT));
 }
 
@@ -242,7 +235,7 @@ static void test_changed_files_are_refused_or_good(void)
         for (uint32_t changes = 1 + next_random(&state) % 3; changes > 0; changes--) {
             const bool in_head = next_random(&state) % 2 != 0;
             const uint32_t at = in_head ? SURFACE_AT + next_random(&state) % 12 : 16 + next_random(&state) % 16;
-            put(at, next_random(&state) % 2 != 0 ? next_random(&state) % 12 : next_random(&state), 1);
+            elm_put(file, at, next_random(&state) % 2 != 0 ? next_random(&state) % 12 : next_random(&state), 1);
         }
         if (open_as(SIZE - next_random(&state) % 8 * 4) == EL_ELM_OK) {
             accepted++;

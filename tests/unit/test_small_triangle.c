@@ -82,7 +82,8 @@ static void draw_expected(const el_corner corners[3], const el_surface *surface,
     }
 }
 
-/* Draws it by one of the short ways, in bands of `lines` from row y on, and returns how many bands it is in; 0 when it is refused. */
+/* Draws it by one of the short ways, in bands of `lines` from row y on, and returns how many bands it is in; 0 when it
+ * is refused. */
 typedef uint32_t short_way(seeded *s, const el_record *record, int32_t y, int32_t lines, el_stats *stats);
 
 static uint32_t draw_small(seeded *s, const el_record *record, int32_t y, int32_t lines, el_stats *stats)

@@ -7,13 +7,6 @@
 
 enum { MAX_WIDTH = 2040, MAX_SEGMENTS = 32 };
 
-#define EXPECT(seed, condition)                                                                                        \
-    do {                                                                                                               \
-        if (!(condition)) {                                                                                            \
-            fail_at(seed, "line %d: %s", __LINE__, #condition);                                                        \
-        }                                                                                                              \
-    } while (0)
-
 void setUp(void)
 {
 }

@@ -6,13 +6,6 @@
 
 enum { MAX_WIDTH = 2040, GUARD = 0xA5, MAX_LINES = 12 };
 
-#define EXPECT(seed, condition)                                                                                        \
-    do {                                                                                                               \
-        if (!(condition)) {                                                                                            \
-            fail_at(seed, "line %d: %s", __LINE__, #condition);                                                        \
-        }                                                                                                              \
-    } while (0)
-
 void setUp(void)
 {
 }

@@ -5,9 +5,7 @@
 #include "demo/meshes/room.h"
 #include "demo/meshes/solid.h"
 #include "demo/meshes/teapot.h"
-
-/* Times 1/10 world unit, Q16.16. */
-#define TENTHS_Q16(n) ((n)*65536 / 10)
+#include "scene_units.h"
 
 /* A turn in `frames` frames. */
 #define TURN_IN(frames) (0xFFFFFFFFU / (frames) + 1U)

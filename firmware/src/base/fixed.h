@@ -76,6 +76,11 @@ static inline int32_t el_min_i32(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+static inline int32_t el_min3_i32(int32_t a, int32_t b, int32_t c)
+{
+    return el_min_i32(a, el_min_i32(b, c));
+}
+
 static inline uint32_t el_max_u32(uint32_t a, uint32_t b)
 {
     return a > b ? a : b;
@@ -89,6 +94,11 @@ static inline uint32_t el_min_u32(uint32_t a, uint32_t b)
 static inline int32_t el_max_i32(int32_t a, int32_t b)
 {
     return a > b ? a : b;
+}
+
+static inline int32_t el_max3_i32(int32_t a, int32_t b, int32_t c)
+{
+    return el_max_i32(a, el_max_i32(b, c));
 }
 
 /* a * b modulo 2^64, b < 2^16. */

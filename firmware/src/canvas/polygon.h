@@ -72,9 +72,9 @@ void el_polygon_begin(el_polygon *polygon, void *memory, size_t bytes);
 void el_polygon_move(el_polygon *polygon, int32_t x, int32_t y);
 void el_polygon_line(el_polygon *polygon, int32_t x, int32_t y);
 
-/* Closes the last contour, and draws what of the polygon lies in the canvas. More contours may follow. EL_ERROR_MEMORY: it
- * has more edges than its memory, or, smooth, too many columns for what the edges leave of it; EL_ERROR_RANGE as above; EL_ERROR_ARGUMENT: no such
- * smoothing. Then nothing is drawn. */
+/* Closes the last contour, and draws what of the polygon lies in the canvas. More contours may follow. EL_ERROR_MEMORY:
+ * it has more edges than its memory, or, smooth, too many columns for what the edges leave of it; EL_ERROR_RANGE as
+ * above; EL_ERROR_ARGUMENT: no such smoothing. Then nothing is drawn. */
 el_status el_polygon_fill(el_polygon *polygon, const el_canvas *canvas, el_rule rule, el_smooth smooth, el_paint paint);
 
 #ifdef __cplusplus

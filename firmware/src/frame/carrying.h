@@ -1,5 +1,5 @@
-/* The memory of triangles that are carried on from band to band (painter.h), and their order. Private to painter.c and
- * painter_sampled.c. */
+/* The memory of triangles that are carried on from band to band (painter.h), and their order. Private to the
+ * painters. */
 #ifndef EL_FRAME_CARRYING_H
 #define EL_FRAME_CARRYING_H
 
@@ -45,6 +45,16 @@ static inline uint16_t el_carrying_order(const el_carrying *c, const el_list *li
 static inline bool el_is_earlier(uint16_t order, uint16_t other)
 {
     return order - 1U < other - 1U;
+}
+
+/* Takes what was submitted first from the front of the two chains, of which one is not empty: what is listed in this band, and
+ * what is carried on from above. Returns its name. */
+static inline uint16_t el_carrying_next(const el_carrying *c, const el_list *list, uint16_t *fresh, uint16_t *carried)
+{
+    uint16_t *const taken = el_is_earlier(*fresh, el_carrying_order(c, list, *carried)) ? fresh : carried;
+    const uint16_t listed = *taken;
+    *taken = *(const uint16_t *)el_list_at(list, listed);
+    return listed;
 }
 
 #endif

@@ -65,10 +65,10 @@ static inline el_verdict el_cull(const el_culling *culling, const el_screen_vert
         return EL_VERDICT_BACK;
     }
     const int32_t reach = EL_WITH_SAMPLES + EL_WITH_WIRES > 0 ? culling->reach : 0;
-    const int32_t x_begin = el_first_centre(el_min_i32(x[0], el_min_i32(x[1], x[2])) - reach);
-    const int32_t x_end = el_first_centre(el_max_i32(x[0], el_max_i32(x[1], x[2])) + reach);
-    rows->first = el_first_centre(el_min_i32(y[0], el_min_i32(y[1], y[2])) - reach);
-    rows->end = el_first_centre(el_max_i32(y[0], el_max_i32(y[1], y[2])) + reach);
+    const int32_t x_begin = el_first_centre(el_min3_i32(x[0], x[1], x[2]) - reach);
+    const int32_t x_end = el_first_centre(el_max3_i32(x[0], x[1], x[2]) + reach);
+    rows->first = el_first_centre(el_min3_i32(y[0], y[1], y[2]) - reach);
+    rows->end = el_first_centre(el_max3_i32(y[0], y[1], y[2]) + reach);
     if (x_begin >= x_end || rows->first >= rows->end) {
         return EL_VERDICT_EMPTY;
     }

@@ -24,9 +24,9 @@ static void find_rows(el_drawing *d)
     d->culling.row_end = el_min_i32(renderer->pass_end * renderer->config.band_lines, el_renderer_lines(renderer));
 }
 
-/* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last sixteenth of the pass' bands; where there
- * is one band only, draws the list. Returns true when vertices that lay over the depth band are lost, because the band's
- * depth is there now. */
+/* The list is full. Closes its gaps; where it has none, makes it thin; where it is that already, gives up the last
+ * sixteenth of the pass' bands; where there is one band only, draws the list. Returns true when vertices that lay over
+ * the depth band are lost, because the band's depth is there now. */
 static bool make_room(el_renderer *renderer)
 {
     const int32_t bands = renderer->pass_end - renderer->pass_begin;
@@ -276,8 +276,8 @@ static
     return end;
 }
 
-/* All triangles, or of the clusters those that may be seen. */
-/* Draws the triangles from number `begin` on, on this core alone. Returns how many its clusters skipped. */
+/* Draws the triangles from number `begin` on, on this core alone: all of them, or of clusters those that may be seen. Returns how
+ * many its clusters skipped. */
 static EL_APART uint32_t run_alone(el_drawing *d, uint32_t begin)
 {
     uint32_t skipped = 0;
@@ -374,7 +374,7 @@ static bool can_draw_wires(const el_renderer *renderer, const el_material *mater
 }
 #endif
 
-static el_status check(const el_mesh *mesh, const el_material *material)
+static el_status check(const el_renderer *renderer, const el_mesh *mesh, const el_material *material)
 {
     if (mesh->triangle_count > EL_MESH_MAX_TRIANGLES) {
         return EL_ERROR_SIZE;
@@ -391,24 +391,12 @@ static el_status check(const el_mesh *mesh, const el_material *material)
         (el_is_lit(material) && mesh->normals == NULL)) {
         return EL_ERROR_MATERIAL;
     }
-    return EL_OK;
-}
-
-el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material)
-{
-    if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
-        return EL_ERROR_ARGUMENT;
-    }
-    const el_status status = check(mesh, material);
-    if (status != EL_OK) {
-        return status;
-    }
 #if EL_WITH_MIXED
     if (!can_mix(renderer, material)) {
         return EL_ERROR_MATERIAL;
     }
 #endif
-    if (EL_WITH_SAMPLES && material->shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
+    if (EL_WITH_SAMPLES && shading == EL_SHADE_OVERDRAW && renderer->list.reach != 0) {
         return EL_ERROR_MATERIAL;
     }
 #if EL_WITH_WIRES
@@ -416,6 +404,28 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
         return EL_ERROR_MATERIAL;
     }
 #endif
+    return EL_OK;
+}
+
+/* The light's direction in the model's space, by the transposed rotation. */
+static void turn_light(el_draw_state *state, const el_material *material, const el_pose *pose)
+{
+    for (unsigned i = 0; i < 3; i++) {
+        const int64_t component =
+            el_shift_i64(el_dot_column(material->light->direction_q30, pose->rotation_q30, i), 46);
+        state->light_q14[i] = (int16_t)(component > 16384 ? 16384 : (component < -16384 ? -16384 : component));
+    }
+}
+
+el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pose, const el_material *material)
+{
+    if (renderer == NULL || mesh == NULL || pose == NULL || material == NULL || !renderer->in_frame) {
+        return EL_ERROR_ARGUMENT;
+    }
+    const el_status status = check(renderer, mesh, material);
+    if (status != EL_OK) {
+        return status;
+    }
     el_count(&renderer->stats.draws, 1);
     if (el_quiet_looks(renderer)) {
         el_quiet_look_at(renderer, mesh, pose, material);
@@ -433,12 +443,7 @@ el_status el_draw(el_renderer *renderer, const el_mesh *mesh, const el_pose *pos
     }
     state.flags = state.transform.mirrored;
     if (el_is_lit(material)) {
-        /* Into model space, by the transposed rotation. */
-        for (unsigned i = 0; i < 3; i++) {
-            const int64_t component =
-                el_shift_i64(el_dot_column(material->light->direction_q30, pose->rotation_q30, i), 46);
-            state.light_q14[i] = (int16_t)(component > 16384 ? 16384 : (component < -16384 ? -16384 : component));
-        }
+        turn_light(&state, material, pose);
     }
     el_shading shading = (el_shading)material->shading;
     if (!el_debug_begin_draw(renderer, &state, &shading)) {

@@ -67,7 +67,7 @@ static bool is_hidden(el_painter *painter, const el_target *target, const el_sur
 
 static uint16_t nearest(const el_corner corners[3])
 {
-    return (uint16_t)el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
+    return (uint16_t)el_min3_i32(corners[0].z, corners[1].z, corners[2].z);
 }
 #endif
 
@@ -82,7 +82,7 @@ static EL_SELDOM uint16_t draw_wires(el_painter *painter, const el_renderer *ren
     el_debug_surface(renderer, record, surface);
     el_count(&painter->stats->setups, 1);
     el_wires_draw(corners, el_wires_of(list, record), surface, target, painter->stats);
-    const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+    const int32_t y_last = el_max3_i32(corners[0].y, corners[1].y, corners[2].y);
     return painter->goes_on && el_first_centre(y_last + EL_WIRE_REACH) > target->y_end ? name : 0;
 }
 #endif
@@ -107,14 +107,12 @@ static __attribute__((noinline)) uint16_t draw_any(el_painter *painter, const el
     }
 #endif
     el_debug_surface(renderer, record, &surface);
-    const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+    const int32_t y_last = el_max3_i32(corners[0].y, corners[1].y, corners[2].y);
     const bool reaches_on = painter->goes_on && el_first_centre(y_last) > target->y_end;
 #if EL_WITH_HIDDEN
     if (el_hidden_is_likely(painter->hidden, painter->stats) &&
-        is_hidden(painter, target, &surface,
-                  el_first_centre(el_min_i32(corners[0].x, el_min_i32(corners[1].x, corners[2].x))),
-                  el_first_centre(el_max_i32(corners[0].x, el_max_i32(corners[1].x, corners[2].x))),
-                  nearest(corners))) {
+        is_hidden(painter, target, &surface, el_first_centre(el_min3_i32(corners[0].x, corners[1].x, corners[2].x)),
+                  el_first_centre(el_max3_i32(corners[0].x, corners[1].x, corners[2].x)), nearest(corners))) {
         return reaches_on ? name : 0;
     }
 #endif
@@ -160,7 +158,7 @@ static __attribute__((noinline)) uint16_t draw_small(el_painter *painter, const 
 {
     const el_list *const list = &renderer->list;
     const el_point *const points = record->at.points;
-    const int32_t y_last = el_max_i32(points[0].y, el_max_i32(points[1].y, points[2].y));
+    const int32_t y_last = el_max3_i32(points[0].y, points[1].y, points[2].y);
     uint16_t state_name = 0;
     uint16_t carried_name = 0;
     el_triangle *rest = NULL;
@@ -172,7 +170,7 @@ static __attribute__((noinline)) uint16_t draw_small(el_painter *painter, const 
             state->head.order = name;
             state->is_tiny = false;
 #if EL_WITH_HIDDEN
-            state->depth = (uint16_t)el_min_i32(points[0].z, el_min_i32(points[1].z, points[2].z));
+            state->depth = (uint16_t)el_min3_i32(points[0].z, points[1].z, points[2].z);
 #endif
             rest = &state->triangle;
             carried_name = state_name;
@@ -279,9 +277,9 @@ static __attribute__((noinline)) bool record_is_hidden(el_painter *painter, cons
         return false;
     }
     const el_point *const p = record->at.points;
-    const int32_t x_begin = el_first_centre(el_min_i32(p[0].x, el_min_i32(p[1].x, p[2].x)));
-    const int32_t x_end = el_first_centre(el_max_i32(p[0].x, el_max_i32(p[1].x, p[2].x)));
-    const int32_t depth = el_min_i32(p[0].z, el_min_i32(p[1].z, p[2].z));
+    const int32_t x_begin = el_first_centre(el_min3_i32(p[0].x, p[1].x, p[2].x));
+    const int32_t x_end = el_first_centre(el_max3_i32(p[0].x, p[1].x, p[2].x));
+    const int32_t depth = el_min3_i32(p[0].z, p[1].z, p[2].z);
     if (!el_hidden_is(painter->hidden, target, x_begin, x_end, (uint16_t)depth)) {
         return false;
     }

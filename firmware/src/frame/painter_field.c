@@ -42,7 +42,7 @@ static uint16_t draw_fresh(el_painter *painter, const el_renderer *renderer, uin
     el_count(&painter->stats->vertices, el_list_gather(list, record, corners, &surface));
     el_count(&painter->stats->setups, 1);
     surface.uv_error_log2 = renderer->config.uv_error_log2;
-    const int32_t y_last = el_max_i32(corners[0].y, el_max_i32(corners[1].y, corners[2].y));
+    const int32_t y_last = el_max3_i32(corners[0].y, corners[1].y, corners[2].y);
 #if EL_WITH_WIRES
     if ((surface.finish & EL_FINISH_WIRES) != 0) {
         surface.colour = el_wires_colour(list, record);
@@ -90,9 +90,7 @@ void el_painter_draw_field(el_painter *painter, const el_renderer *renderer, con
     el_carrying *const c = &painter->carrying;
     uint16_t *last = &c->first;
     while (fresh != 0 || carried != 0) {
-        uint16_t *const taken = el_is_earlier(fresh, el_carrying_order(c, list, carried)) ? &fresh : &carried;
-        const uint16_t listed = *taken;
-        *taken = *(const uint16_t *)el_list_at(list, listed);
+        const uint16_t listed = el_carrying_next(c, list, &fresh, &carried);
         const uint16_t name = EL_WITH_CARRY && listed >= c->first_state ? draw_carried(painter, list, listed, target)
                                                                         : draw_fresh(painter, renderer, listed, target);
         if (name != 0) {

@@ -105,9 +105,7 @@ void el_painter_draw_samples(el_painter *painter, const el_renderer *renderer, c
     find_sampled_place(&place, c, list);
     uint16_t *last = &c->first;
     while (fresh != 0 || carried != 0) {
-        uint16_t *const taken = el_is_earlier(fresh, el_carrying_order(c, list, carried)) ? &fresh : &carried;
-        const uint16_t listed = *taken;
-        *taken = *(const uint16_t *)el_list_at(list, listed);
+        const uint16_t listed = el_carrying_next(c, list, &fresh, &carried);
         const uint16_t name = draw_sampled(painter, renderer, listed, &sampled, &place);
         if (name != 0) {
             *last = name;

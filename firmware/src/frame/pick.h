@@ -4,10 +4,10 @@
  *     el_pick_draw(&pick, &mesh, &pose, &material);       as the frame's el_draw, in the same order
  *     if (el_pick_end(&pick, &picked) > 0) { ... }
  *
- * What is picked is what is seen: the answer comes from a renderer of its own that draws the pixel's line, through the same
- * clipping, culling, coverage and depth test, ties included. What is blended, or has texels
- * that do not show, counts as if it were opaque, and wires as the triangles that they are of. No sink gets anything. It takes about two frames' vertices and
- * culling, and the set-up of what touches the line. */
+ * What is picked is what is seen: the answer comes from a renderer of its own that draws the pixel's line, through the
+ * same clipping, culling, coverage and depth test, ties included. What is blended, or has texels that do not show,
+ * counts as if it were opaque, and wires as the triangles that they are of. No sink gets anything. It takes about two
+ * frames' vertices and culling, and the set-up of what touches the line. */
 #ifndef EL_FRAME_PICK_H
 #define EL_FRAME_PICK_H
 

@@ -1,9 +1,9 @@
 /* What the frame layer need not do because the frame before has it already (el_config.reuse); internal to it.
  *
- * Two facts, each found for next to nothing. A band into which no triangle was binned is background; if it was so in the
- * frame before, its lines are unchanged. And a frame for which the same was submitted is unchanged as a whole. What then
- * need not be done is for each layer and each sink to say: one whose display heals by being sent again takes some bands in any case.
- * Without EL_WITH_REUSE the functions are empty, so that they cost nothing where they are called. */
+ * Two facts, each found for next to nothing. A band into which no triangle was binned is background; if it was so in
+ * the frame before, its lines are unchanged. And a frame for which the same was submitted is unchanged as a whole. What
+ * then need not be done is for each layer and each sink to say: one whose display heals by being sent again takes some
+ * bands in any case. Without EL_WITH_REUSE the functions are empty, so that they cost nothing where they are called. */
 #ifndef EL_FRAME_QUIET_H
 #define EL_FRAME_QUIET_H
 

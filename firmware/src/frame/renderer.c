@@ -1,3 +1,4 @@
+/* Frames: what el_init takes, how it divides the memory, and when a pass ends and another begins. */
 #include "frame/renderer.h"
 
 #include <string.h>
@@ -60,69 +61,62 @@ static uint16_t width_shown(const el_renderer *renderer)
     return el_config_has_stripes(&renderer->config) ? (uint16_t)(width / EL_STRIPES_PER_PIXEL) : width;
 }
 
-el_status el_init(el_renderer *renderer, const el_config *config)
+/* Pixels of a line as it is drawn: a stripe each where there are stripes. */
+static uint32_t width_drawn(const el_config *config)
 {
-    if (renderer == NULL || config == NULL || config->memory == NULL) {
-        return EL_ERROR_ARGUMENT;
-    }
+    return el_config_has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
+}
+
+static uint32_t workers_of(const el_config *config)
+{
+    return EL_WITH_WORKERS && config->workers != NULL ? config->workers->count : 1U;
+}
+
+static bool sizes_are_valid(const el_config *config)
+{
     if (config->width < 1 || config->width > EL_MAX_WIDTH || config->height < 1 || config->height > EL_MAX_HEIGHT ||
         config->band_lines < 1 || config->band_lines > config->height || config->uv_error_log2 > 5 ||
         config->view >= EL_DEBUG_VIEWS || (config->shading_off & ~EL_DEBUG_SHADINGS) != 0 ||
         (config->reuse & ~EL_REUSES) != 0 || (config->depth_prepass && !EL_WITH_PREPASS)) {
-        return EL_ERROR_SIZE;
+        return false;
     }
 #if EL_WITH_SAMPLES
     if (!samples_are_valid(config)) {
-        return EL_ERROR_SIZE;
-    }
-#endif
-#if EL_WITH_INTERLACED
-    if (config->interlaced && check_interlacing(config) != EL_OK) {
-        return check_interlacing(config);
+        return false;
     }
 #endif
 #if EL_WITH_STRIPES
     if (config->stripes >= EL_STRIPES_COUNT || (config->stripes != EL_STRIPES_NONE && config->width > EL_MAX_STRIPED)) {
-        return EL_ERROR_SIZE;
+        return false;
     }
 #endif
-    const uint32_t width = el_config_has_stripes(config) ? EL_STRIPED_WIDTH((uint32_t)config->width) : config->width;
+    return config->workers == NULL ||
+           (config->workers->count >= 1 && config->workers->count <= (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1));
+}
+
+static uint32_t least_bytes(const el_config *config, uint32_t width, uint32_t workers)
+{
     const uint32_t lines = config->band_lines;
-    if (config->workers != NULL &&
-        (config->workers->count < 1 || config->workers->count > (EL_WITH_WORKERS ? EL_MAX_WORKERS : 1))) {
-        return EL_ERROR_SIZE;
-    }
-    const uint32_t workers = EL_WITH_WORKERS && config->workers != NULL ? config->workers->count : 1U;
-    const uint32_t sample_bytes = EL_SAMPLES_BYTES(width, lines, el_config_samples(config));
-    const uint32_t least = EL_MIN_MEMORY_BYTES(width, config->height, lines) +
-                           EL_WORKERS_BYTES(width, config->height, lines, workers) + workers * sample_bytes;
-    if (config->memory_bytes < least || config->memory_bytes > INT32_MAX) {
-        return EL_ERROR_MEMORY;
-    }
-    memset(renderer, 0, sizeof *renderer);
-    renderer->config = *config;
-#if EL_WITH_STRIPES
-    renderer->config.width = (uint16_t)width;
-#endif
-    renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
-    renderer->band_count = bands_of(config->height, lines);
-    renderer->pass_bands = renderer->band_count;
+    return EL_MIN_MEMORY_BYTES(width, config->height, lines) + EL_WORKERS_BYTES(width, config->height, lines, workers) +
+           workers * EL_SAMPLES_BYTES(width, lines, el_config_samples(config));
+}
 
-#if EL_WITH_WORKERS
-    renderer->workers = (uint8_t)workers;
-#endif
-
-    /* Two colour bands of each core, bins, the other cores' painters and bins, all cores' samples, list ..., depth bands: the vertices of a draw lie at
-     * the end of the list's memory and reach over the depth bands while no band is open. Names of records do not reach
-     * beyond EL_LIST_MAX_BYTES; what is more stays unused. */
-    const uint32_t skipped = (uint32_t)(-(uintptr_t)config->memory & 7U);
+/* Two colour bands of each core, bins, the other cores' painters and bins, all cores' samples, the list, depth bands: the
+ * vertices of a draw lie at the end of the list's memory and reach over the depth bands while no band is open. Names of records
+ * do not reach beyond EL_LIST_MAX_BYTES; what is more stays unused. */
+static void divide_memory(el_renderer *renderer, const el_config *config, uint32_t width, uint32_t workers)
+{
+    const uint32_t lines = config->band_lines;
+    const uintptr_t at = (uintptr_t)config->memory;
+    const uint32_t skipped = (uint32_t)(((at + 7U) & ~(uintptr_t)7U) - at);
     uint8_t *const memory = (uint8_t *)config->memory + skipped;
     const uint32_t bytes = ((uint32_t)config->memory_bytes - skipped) / 8 * 8;
     const uint32_t colour_bytes = EL_COLOUR_BAND_BYTES(width, lines);
     const uint32_t one_depth = EL_DEPTH_BAND_BYTES(width, lines);
-    const uint32_t bins_at = 2 * workers * colour_bytes;
-    const uint32_t others_at = bins_at + EL_BIN_BYTES(config->height, lines);
+    const uint32_t sample_bytes = EL_SAMPLES_BYTES(width, lines, el_config_samples(config));
     const uint32_t bin_bytes = EL_BIN_BYTES(config->height, lines);
+    const uint32_t bins_at = 2 * workers * colour_bytes;
+    const uint32_t others_at = bins_at + bin_bytes;
     const uint32_t part_bins_at = others_at + (workers - 1U) * EL_PAINTER_BYTES;
     const uint32_t samples_at = part_bins_at + (workers - 1U) * bin_bytes;
     const uint32_t list_at = samples_at + workers * sample_bytes;
@@ -154,6 +148,38 @@ el_status el_init(el_renderer *renderer, const el_config *config)
 #endif
     el_list_init(&renderer->list, memory + list_at, renderer->list_bytes, (uint16_t *)(void *)(memory + bins_at),
                  renderer->band_count, config->band_lines);
+}
+
+el_status el_init(el_renderer *renderer, const el_config *config)
+{
+    if (renderer == NULL || config == NULL || config->memory == NULL) {
+        return EL_ERROR_ARGUMENT;
+    }
+    if (!sizes_are_valid(config)) {
+        return EL_ERROR_SIZE;
+    }
+#if EL_WITH_INTERLACED
+    if (config->interlaced && check_interlacing(config) != EL_OK) {
+        return check_interlacing(config);
+    }
+#endif
+    const uint32_t width = width_drawn(config);
+    const uint32_t workers = workers_of(config);
+    if (config->memory_bytes < least_bytes(config, width, workers) || config->memory_bytes > INT32_MAX) {
+        return EL_ERROR_MEMORY;
+    }
+    memset(renderer, 0, sizeof *renderer);
+    renderer->config = *config;
+#if EL_WITH_STRIPES
+    renderer->config.width = (uint16_t)width;
+#endif
+    renderer->config.uv_error_log2 = config->uv_error_log2 != 0 ? config->uv_error_log2 : 3;
+    renderer->band_count = bands_of(config->height, config->band_lines);
+    renderer->pass_bands = renderer->band_count;
+#if EL_WITH_WORKERS
+    renderer->workers = (uint8_t)workers;
+#endif
+    divide_memory(renderer, config, width, workers);
 #if EL_WITH_WORKERS
     renderer->list.is_shared = workers > 1;
 #endif

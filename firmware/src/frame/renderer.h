@@ -80,9 +80,10 @@ enum {
     (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_BIN_BYTES(height, band_lines) +                                 \
      EL_DEPTH_BAND_BYTES(width, band_lines) + EL_MIN_LIST_BYTES + 8U)
 
-/* What comes to either of the two with `workers` cores: for each core but the first two colour bands and bins, and for each two depth
- * bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices have all depth bands
- * then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it reaches. */
+/* What comes to either of the two with `workers` cores: for each core but the first two colour bands and bins, and for
+ * each two depth bands in place of one for all, since a band's depth must last until the sinks have got it. Vertices
+ * have all depth bands then. Each triangle takes 8 bytes more for every further EL_GROUP_BANDS bands that it
+ * reaches. */
 #define EL_WORKERS_BYTES(width, height, band_lines, workers)                                                           \
     ((workers) < 2U ? 0U                                                                                               \
                     : ((workers)-1U) * (2U * EL_COLOUR_BAND_BYTES(width, band_lines) + EL_PAINTER_BYTES +              \

@@ -48,8 +48,9 @@ static uint32_t length_of(const int32_t row[3])
     return el_sqrt_u64(sum) + 1U;
 }
 
-/* The adjugate of the rows, rounded to 29 bits and a sign; returns how many bits were left out, or -1 where the rows are 0. It takes
- * clip coordinates to directions: rows * (point - camera) = 2^shift * clip, so point - camera goes with adjugate * clip. */
+/* The adjugate of the rows, rounded to 29 bits and a sign; returns how many bits were left out, or -1 where the rows
+ * are 0. It takes clip coordinates to directions: rows * (point - camera) = 2^shift * clip, so point - camera goes with
+ * adjugate * clip. */
 static int make_adjugate(const int32_t rows[3][3], int32_t adjugate[3][3])
 {
     int64_t exact[3][3]; /* |element| < 2 * 2^58 */

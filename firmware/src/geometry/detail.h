@@ -23,9 +23,10 @@ typedef struct el_level {
 /* A finer level begins an eighth above the size at which it ends, so that what stands at the limit does not flicker. */
 #define EL_LEVEL_FINER(size) ((size) + (size) / 8U)
 
-/* The diameter of the mesh's bounding sphere on the screen, in lines of 1/16 px: as large as a disc across the view at the
- * distance of the sphere's middle, which is the near plane's at least. Within 1/16 px and 2^-16 of
- * that, and as if it stood 2^-14 units nearer or farther; UINT32_MAX where it is larger. `view` is el_renderer.view within a frame. Pre: a pose that el_draw takes. */
+/* The diameter of the mesh's bounding sphere on the screen, in lines of 1/16 px: as large as a disc across the view at
+ * the distance of the sphere's middle, which is the near plane's at least. Within 1/16 px and 2^-16 of that, and as if
+ * it stood 2^-14 units nearer or farther; UINT32_MAX where it is larger. `view` is el_renderer.view within a frame.
+ * Pre: a pose that el_draw takes. */
 uint32_t el_screen_size_q4(const el_view *view, const el_mesh *mesh, const el_pose *pose);
 
 /* The level for that size where `current` is the one that was drawn last (any number; 0 at first). Asked again for the same

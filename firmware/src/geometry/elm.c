@@ -150,7 +150,8 @@ static bool is_inside_sphere(const int16_t position[3], const int16_t centre[3],
     return distance_squared <= (uint64_t)radius * radius;
 }
 
-/* Clusters hold all triangles and all vertices; their spheres are around their corners, with centres in the mesh's. Cones and altitudes are trusted: a wrong one makes a cluster vanish. */
+/* Clusters hold all triangles and all vertices; their spheres are around their corners, with centres in the mesh's.
+ * Cones and altitudes are trusted: a wrong one makes a cluster vanish. */
 static bool has_whole_clusters(const elm_header *header, const int16_t (*positions)[3], const uint16_t (*triangles)[3],
                                const el_cluster *clusters, uint32_t cluster_count)
 {

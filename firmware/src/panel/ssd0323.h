@@ -1,9 +1,9 @@
 /* SSD0323 (Solomon Systech): 128x64 OLED, 4 bits of grey per pixel, two pixels of a row in a byte.
  *
- * For the OSRAM Pictiva glass of the Stellaris evaluation boards (EK-LM3S6965). Sections are those of the
- * data sheet of its successor with the same command set, SSD1325 (Rev 2.3): the SSD0323's own could not be had. How the glass is wired, and its voltages, are
- * those of Luminary Micro's driver for the board (osram128x64x4.c, after OSRAM's application note AN018). Only commands
- * that QEMU's model of the board knows are sent. The driver is oled.h's. */
+ * For the OSRAM Pictiva glass of the Stellaris evaluation boards (EK-LM3S6965). Sections are those of the data sheet of
+ * its successor with the same command set, SSD1325 (Rev 2.3): the SSD0323's own could not be had. How the glass is
+ * wired, and its voltages, are those of Luminary Micro's driver for the board (osram128x64x4.c, after OSRAM's
+ * application note AN018). Only commands that QEMU's model of the board knows are sent. The driver is oled.h's. */
 #ifndef EL_PANEL_SSD0323_H
 #define EL_PANEL_SSD0323_H
 

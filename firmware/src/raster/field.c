@@ -48,7 +48,7 @@ static void take_every_other_row(el_triangle *triangle, unsigned field)
 bool el_field_setup(el_triangle *triangle, const el_corner corners[3], const el_surface *surface, int32_t first_line,
                     unsigned field)
 {
-    const int32_t top = el_first_centre(el_min_i32(corners[0].y, el_min_i32(corners[1].y, corners[2].y)));
+    const int32_t top = el_first_centre(el_min3_i32(corners[0].y, corners[1].y, corners[2].y));
     const int32_t line = el_max_i32(first_line, el_field_row(field, top));
     if (!el_triangle_setup(triangle, corners, surface, el_screen_row(field, line))) {
         return false;

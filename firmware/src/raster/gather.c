@@ -127,7 +127,7 @@ static EL_APART uint16_t flat_colour(const el_draw_state *draw, uint16_t index, 
 /* 1/w of the corners in one unit, the largest in [2^30, 2^31), from w * 2^-shift of each. */
 static void scale_reciprocals(el_corner corners[3], const uint16_t w[3], const uint8_t shifts[3])
 {
-    const int32_t least = el_min_i32(shifts[0], el_min_i32(shifts[1], shifts[2]));
+    const int32_t least = el_min3_i32(shifts[0], shifts[1], shifts[2]);
     for (unsigned i = 0; i < 3; i++) {
         const uint32_t scaled = ((uint32_t)w[i] << 15) >> (shifts[i] - least);
         corners[i].w = scaled == 0 ? 1U : scaled;

@@ -143,7 +143,7 @@ static int32_t first_row(const el_list *list, const el_record *record, el_record
         return record->at.row;
     }
     const el_point *const points = record->at.points;
-    const int32_t top = el_min_i32(points[0].y, el_min_i32(points[1].y, points[2].y));
+    const int32_t top = el_min3_i32(points[0].y, points[1].y, points[2].y);
     return el_field_row(el_list_field(list), el_first_centre(top - reach));
 }
 

@@ -281,10 +281,10 @@ static inline uint32_t el_list_share_bytes(const el_list *list, int32_t row, int
 /* Puts a record's shares into the list's memory from byte `at` on, and into their bins. Returns where they end. */
 uint32_t el_list_share(const el_list *list, const el_record *record, uint32_t at, int32_t row, int32_t row_end);
 
-/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row `row`.
- * Its run and next are set; the caller fills in the rest, and sees to its shares. NULL when the list has
- * no room for it and for `more` bytes. Where a caller has a copy of the list, for as long as nobody else looks at it, all that this changes
- * but the records stays in registers. */
+/* Appends a record to the open run, whose records have `bytes` each, and to the bin of the band that has screen row
+ * `row`. Its run and next are set; the caller fills in the rest, and sees to its shares. NULL when the list has no room
+ * for it and for `more` bytes. Where a caller has a copy of the list, for as long as nobody else looks at it, all that
+ * this changes but the records stays in registers. */
 static inline el_record *el_list_append_same(el_list *list, uint32_t bytes, uint32_t more, int32_t row)
 {
     if (bytes + more > list->end - list->used) {

@@ -500,8 +500,8 @@ static bool is_small(const el_corner *const sorted[3], int32_t reach, const el_s
         .dx2 = sorted[2]->x - sorted[0]->x,
         .dy2 = sorted[2]->y - sorted[0]->y,
     };
-    const int32_t left = el_min_i32(sorted[0]->x, el_min_i32(sorted[1]->x, sorted[2]->x));
-    const int32_t right = el_max_i32(sorted[0]->x, el_max_i32(sorted[1]->x, sorted[2]->x));
+    const int32_t left = el_min3_i32(sorted[0]->x, sorted[1]->x, sorted[2]->x);
+    const int32_t right = el_max3_i32(sorted[0]->x, sorted[1]->x, sorted[2]->x);
     return el_shape_is_small(shape) && el_first_centre(left - reach) >= 0 &&
            el_first_centre(right + reach) <= target->target.width;
 }

@@ -84,8 +84,8 @@ static EL_SPECIALISED int32_t walk_sides(el_triangle *triangle, int32_t y_stop, 
     return w.column;
 }
 
-/* `columns` to the right, 0 to the widest screen's. `z_low`: the lower half of a column's z, settled, so that its product is added in
- * the instruction that makes it where there is one. */
+/* `columns` to the right, 0 to the widest screen's. `z_low`: the lower half of a column's z, settled, so that its
+ * product is added in the instruction that makes it where there is one. */
 static EL_SPECIALISED void move_right(el_values *v, const el_values *per_column, uint32_t z_low, uint32_t columns)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)

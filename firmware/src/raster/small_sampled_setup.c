@@ -175,7 +175,7 @@ void el_small_sampled_setup(el_small_sampled *s, const el_corner *const corners[
                             int32_t area, uint8_t kind, uint16_t flat, uint32_t count, int32_t y)
 {
     const int32_t reach = el_samples_reach(count);
-    const int32_t left = el_min_i32(corners[0]->x, el_min_i32(corners[1]->x, corners[2]->x));
+    const int32_t left = el_min3_i32(corners[0]->x, corners[1]->x, corners[2]->x);
     s->y = (int16_t)y;
     s->y0 = corners[0]->y;
     s->y1 = corners[1]->y;

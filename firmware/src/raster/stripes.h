@@ -27,8 +27,9 @@ enum { EL_STRIPES_PER_PIXEL = 3 };
 /* Makes three pixels of each, in place: `pixels` has room for three times as many. */
 void el_stripes_cut(uint16_t *pixels, uint32_t count);
 
-/* Makes one pixel of three in `lines` lines, in place, which then have `width` pixels each, one behind the other: the means,
- * each rounded to nearest, and the depths at their centres, which are those of the middle stripes. `blue_first`: the stripes are blue, green, red. */
+/* Makes one pixel of three in `lines` lines, in place, which then have `width` pixels each, one behind the other: the
+ * means, each rounded to nearest, and the depths at their centres, which are those of the middle stripes. `blue_first`:
+ * the stripes are blue, green, red. */
 void el_stripes_filter(uint16_t *pixels, uint16_t *depth, uint32_t width, uint32_t lines, bool blue_first);
 
 #endif

@@ -181,8 +181,8 @@ static void draw_edge(pen *p, const el_corner *a, const el_corner *b)
 /* By how much nearer than it is a wire is tested. */
 static int32_t allowance_of(const el_corner corners[3])
 {
-    const int32_t nearest = el_min_i32(corners[0].z, el_min_i32(corners[1].z, corners[2].z));
-    const int32_t farthest = el_max_i32(corners[0].z, el_max_i32(corners[1].z, corners[2].z));
+    const int32_t nearest = el_min3_i32(corners[0].z, corners[1].z, corners[2].z);
+    const int32_t farthest = el_max3_i32(corners[0].z, corners[1].z, corners[2].z);
     const int32_t d1 = corners[1].z - corners[0].z;
     const int32_t d2 = corners[2].z - corners[0].z;
     const int32_t dx1 = corners[1].x - corners[0].x;

@@ -59,8 +59,7 @@ BENCH_INLINE void draw_all(const el_surface *surface, bench_range which, unsigne
         for (unsigned k = 0; k < count; k++) {
             const uint32_t picture = pictures[k];
             if (span == NULL) {
-                const el_target target = {
-                    .colour = bench_colour[picture], .depth = bench_depth[picture], .width = WIDTH, .y_end = HEIGHT};
+                const el_target target = {bench_colour[picture], bench_depth[picture], WIDTH, 0, HEIGHT, EL_FIELD_NONE};
                 el_triangle_draw(&batch[k], &target, &stats);
             } else {
                 const span_target target = {bench_colour[picture], bench_depth[picture],

@@ -22,6 +22,7 @@ from . import (
     growth_plot,
     helpers,
     models,
+    pico,
     size,
     stages,
     still,
@@ -79,6 +80,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     what.add_argument("--record-codec", action="store_true", help="measure the codec, write tests/bench/results")
     what.add_argument("--growth", action="store_true", help="print how cost grows, check the laws that it follows")
     what.add_argument("--record-growth", action="store_true", help="measure that, write tests/bench/results and charts")
+    what.add_argument("--pico", action="store_true", help="print a Pico's frames beside its display's wire")
+    what.add_argument("--record-pico", action="store_true", help="measure those, write tests/bench/results")
     what.add_argument("--against", metavar="REVISION", help="print native time relative to another git revision")
     what.add_argument("--workers", action="store_true", help="print what two cores gain over one, here as threads")
     what.add_argument("--all", action="store_true", help="measure everything, write tests/bench/results and the chart")
@@ -140,6 +143,8 @@ def _run(options: argparse.Namespace, folder: Path, verdicts: frames.Verdicts) -
             _write_json(CODEC, {"sequences": codec.rows(streams)}, "tests/bench/run --record-codec")
     if options.quick or options.growth or options.record_growth or options.all:
         _grow(options, machines, verdicts)
+    if options.pico or options.record_pico or options.all:
+        _measure_pico(record=not options.pico)
     if options.alternatives or options.record_alternatives or options.all:
         _measure_alternatives(machines, verdicts, record=not options.alternatives)
 
@@ -196,6 +201,15 @@ def _measure_features(machines: Machines, verdicts: frames.Verdicts, record: boo
         FEATURES.with_suffix(".md").write_text(text, encoding="utf-8")
         for path in tables.DOCUMENTS:
             path.write_text(feature_tables.embed(path.read_text(encoding="utf-8"), found), encoding="utf-8")
+
+
+def _measure_pico(record: bool) -> None:
+    found = pico.measure()
+    print(f"{found['figures']}\n\n{pico.table(found)}")
+    if record:
+        _write_json(pico.RESULT, found, pico.RECORD)
+        for path in tables.DOCUMENTS:
+            path.write_text(pico.embed(path.read_text(encoding="utf-8"), found), encoding="utf-8")
 
 
 def _code_of(machines: Machines, core: str) -> dict[str, int]:

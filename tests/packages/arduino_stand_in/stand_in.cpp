@@ -10,11 +10,12 @@
 #include "Arduino.h"
 #include "SPI.h"
 
+#include "../wire_record.h"
+
 namespace
 {
 
 enum { RESET_PIN = 8, DC_PIN = 9, CS_PIN = 10, PINS = 32, SERIAL_ROOM = 63, RECEIVED_GARBAGE = 0xA5 };
-enum Kind { COMMAND, DATA, RESET, TIME };
 
 FILE *trace;
 uint64_t now_ns;
@@ -28,19 +29,10 @@ void fail(const char *what)
     std::exit(1);
 }
 
-void record(Kind kind, int value)
+void record(int kind, int value)
 {
-    const uint64_t passed_ns = now_ns - written_ns;
-    if (passed_ns > 0) {
-        std::fputc(TIME, trace);
-        std::fputc(0, trace);
-        for (unsigned shift = 0; shift < 32; shift += 8) {
-            std::fputc(static_cast<int>(passed_ns >> shift & 255U), trace);
-        }
-        written_ns = now_ns;
-    }
-    std::fputc(kind, trace);
-    std::fputc(value, trace);
+    write_record(trace, static_cast<uint32_t>(now_ns - written_ns), kind, value);
+    written_ns = now_ns;
 }
 
 class RecordedSpi : public SPIClass
@@ -55,7 +47,7 @@ class RecordedSpi : public SPIClass
             fail("a byte while a pin of the display is no output");
         }
         now_ns += 8ULL * 1000000000ULL / settings_.getClockFreq();
-        record(level[DC_PIN] != LOW ? DATA : COMMAND, data);
+        record(level[DC_PIN] != LOW ? TRACE_DATA : TRACE_COMMAND, data);
         return RECEIVED_GARBAGE;
     }
     uint16_t transfer16(uint16_t data) override
@@ -197,7 +189,7 @@ void pinMode(pin_size_t pin, PinMode mode)
 void digitalWrite(pin_size_t pin, PinStatus status)
 {
     if (pin == RESET_PIN && level[pin] != static_cast<int>(status)) {
-        record(RESET, status);
+        record(TRACE_RESET, status);
     }
     level[pin % PINS] = status;
 }

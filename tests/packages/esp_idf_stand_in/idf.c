@@ -11,8 +11,9 @@
 #include "driver/spi_master.h"
 #include "freertos/task.h"
 
+#include "../wire_record.h"
+
 enum { PIN_DC = 5, PIN_RESET = 8, NS_PER_TICK = 10000000 };
-enum { TRACE_COMMAND, TRACE_DATA, TRACE_RESET, TRACE_TIME };
 
 void app_main(void);
 
@@ -46,16 +47,8 @@ static const char *setting(const char *name)
 
 static void record(int kind, int value)
 {
-    if (unwritten_ns > 0) {
-        fputc(TRACE_TIME, trace);
-        fputc(0, trace);
-        for (unsigned shift = 0; shift < 32; shift += 8) {
-            fputc((int)(unwritten_ns >> shift & 255U), trace);
-        }
-        unwritten_ns = 0;
-    }
-    fputc(kind, trace);
-    fputc(value, trace);
+    write_record(trace, unwritten_ns, kind, value);
+    unwritten_ns = 0;
 }
 
 void stand_in_check(esp_err_t status, const char *what)
