@@ -304,6 +304,9 @@ class Machine(Arithmetic):
             return self.type_of(self.unit.functions[node.name.name].decl.type.type)  # type: ignore[no-any-return]
         if isinstance(node, c_ast.ID) and node.name in self.unit.constants:
             return INT
+        if isinstance(node, c_ast.ArrayRef):
+            elements = self.evaluate(node.name)
+            return elements.type if isinstance(elements, Memory) else elements.cells[0].type  # type: ignore[no-any-return]
         return self.lvalue(node).type  # type: ignore[no-any-return]
 
     def _expr_UnaryOp(self, node: c_ast.UnaryOp) -> Any:

@@ -86,6 +86,8 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
+    "raster/stripes.c": ["base/fixed.c"],
+    "raster/samples.c": ["base/fixed.c"],
     "raster/tiny_triangle.c": ["raster/gather.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/fill.c": [
         *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),
