@@ -306,7 +306,8 @@ class Machine(Arithmetic):
             return INT
         if isinstance(node, c_ast.ArrayRef):
             elements = self.evaluate(node.name)
-            return elements.type if isinstance(elements, Memory) else elements.cells[0].type  # type: ignore[no-any-return]
+            element: IntType = elements.type if isinstance(elements, Memory) else elements.cells[0].type
+            return element
         return self.lvalue(node).type  # type: ignore[no-any-return]
 
     def _expr_UnaryOp(self, node: c_ast.UnaryOp) -> Any:

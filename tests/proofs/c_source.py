@@ -87,7 +87,9 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
     "raster/stripes.c": ["base/fixed.c"],
+    "raster/sampled.c": ["base/fixed.c"],
     "raster/samples.c": ["base/fixed.c"],
+    "raster/wires.c": ["base/fixed.c"],
     "raster/tiny_triangle.c": ["raster/gather.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/fill.c": [
         *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),

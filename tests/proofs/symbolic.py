@@ -384,13 +384,7 @@ class Path:
         if constant is not None:
             return Poly.of(constant // divisor)
         # What is a multiple of the divisor leaves the floor as it is; a constant is taken apart.
-        whole = Poly(
-            {
-                monomial: factor // divisor
-                for monomial, factor in poly.terms.items()
-                if factor % divisor == 0 or not monomial
-            }
-        )
+        whole = Poly({m: factor // divisor for m, factor in poly.terms.items() if factor % divisor == 0 or not m})
         if whole.terms:
             return whole + self.floor(poly - whole * divisor, divisor)
         # So does a common factor.

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from proof import Fault, Machine, Number, Poly, Subject
+from proof import Fault, Machine, Poly, Subject
 
 FILE = "raster/samples.c"
 BITS = (5, 6, 5)
