@@ -327,8 +327,8 @@ def test_a_wires_pixel_depends_on_its_row_alone(bits: int, steep: bool) -> None:
     Run(steep).subject().prove(bits)
 
 
-# A wire lies on its triangle's edge, at most half a pixel from the pixel's centre on either axis. So its depth there and
-# the surface's at the centre differ by A = (|dz/dx| + |dz/dy|) / 2 at most, and rounded both, by less than A + 2.
+# A wire lies on its triangle's edge, at most half a pixel from the pixel's centre on either axis. So its depth there
+# and the surface's at the centre differ by A = (|dz/dx| + |dz/dy|) / 2 at most, and rounded both, by less than A + 2.
 
 
 def allowance() -> Subject:
