@@ -87,6 +87,7 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
     "raster/stripes.c": ["base/fixed.c"],
+    "raster/fog.h": ["base/fixed.c"],
     "raster/field.c": ["raster/triangle.c"],
     "raster/sampled.c": ["base/fixed.c"],
     "raster/samples.c": ["base/fixed.c"],
