@@ -63,6 +63,7 @@ MIXED = [
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
+    "base/image.h": [],
     "base/rgb565.h": [],
     "geometry/transform.c": [
         *("geometry/cull.c", "geometry/vertex.c", "geometry/pose.c", "geometry/vector.c"),
