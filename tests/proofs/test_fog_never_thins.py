@@ -199,7 +199,7 @@ int main(void)
 def run_tables(folder: FilePath, tree: FilePath = SOURCES) -> subprocess.CompletedProcess[str]:
     program = folder / "tables"
     companions = [str(tree / name) for name in (TRANSFORM, *companions_of(TRANSFORM))]
-    compile_c(TABLES, program, *companions, tree=tree)
+    compile_c(TABLES, program, "-O1", *companions, tree=tree)
     return subprocess.run([program], capture_output=True, text=True, check=False)
 
 

@@ -1,7 +1,7 @@
 """base/image: the byte that a pixel of an image has, and which of its bits, for all sizes and places.
 
-Rows of half bytes and of bits begin with a byte of their own. The left pixel of two lies in the upper half, the left one
-of eight in the highest bit. Nothing beyond the image's bytes is read, nor an entry that a palette does not have.
+Rows of half bytes and of bits begin with a byte of their own. The left pixel of two lies in the upper half, the left
+one of eight in the highest bit. Nothing beyond the image's bytes is read, nor an entry that a palette does not have.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@ depth of the nearest.
 
 Its samples are words of their own, or two of them and a mask that says which have the first; then the mean is that of
 as many of either. Sums of the three channels lie in one word, modulo 2^32 in between.
+
+The nearest is found by el_min_u32, which gives one of two: it is not farther than any of those that it was found among.
 """
 
 from __future__ import annotations
@@ -11,7 +13,8 @@ from typing import Any
 
 import pytest
 
-from proof import Fault, Machine, Poly, Subject
+from proof import Fault, Machine, Number, Poly, Subject
+from symbolic import require
 
 FILE = "raster/samples.c"
 BITS = (5, 6, 5)
@@ -26,6 +29,7 @@ class Resolve:
         self.samples: list[list[Poly]] = []
         self.depths: list[Poly] = []
         self.mask = Poly.of(0)
+        self.words: list[Poly] = []  # samples, and those of them that are the nearer of others
 
     def domain(self, machine: Machine) -> list[Any]:
         path, words = machine.path, 2 if self.masked else self.count
@@ -36,13 +40,26 @@ class Resolve:
         if self.masked:
             self.mask = sum((path.atom(f"mask{i}", 0, 15) * (1 << 4 * i) for i in range(self.count // 4)), Poly.of(0))
             path.assume(self.mask - 1)
-        pixels = [depth * (1 << 16) + packed(sample) for depth, sample in zip(self.depths, self.samples, strict=True)]
+        self.words = [
+            depth * (1 << 16) + packed(sample) for depth, sample in zip(self.depths, self.samples, strict=True)
+        ]
         return [
             machine.array("uint16_t", [self.mask]),
             machine.array("uint16_t", [0]),
-            machine.array("uint32_t", pixels),
+            machine.array("uint32_t", list(self.words)),
             machine.exactly("uint32_t", self.count),
         ]
+
+    def nearer(self, machine: Machine, arguments: list[Any]) -> Number:
+        """el_min_u32 of two of those words."""
+        path = machine.path
+        for argument in arguments:
+            require(any(argument.poly.terms == word.terms for word in self.words), "the nearer of samples")
+        found = path.atom("nearer", 0, 2**32 - 1)
+        for argument in arguments:
+            path.assume(argument.poly - found)
+        self.words.append(found)
+        return machine.exactly("uint32_t", found)
 
     def check(self, machine: Machine, arguments: list[Any], _: Any) -> None:
         path, count = machine.path, self.count
@@ -59,10 +76,12 @@ class Resolve:
         nearest = machine.poly(arguments[1].cell)
         for depth in self.depths:
             path.prove(depth - nearest, "no sample is nearer")
-        assert any(path.holds(nearest - depth) for depth in self.depths), "one is as near"
+        require(any((path.floor(word, 1 << 16) - nearest).constant == 0 for word in self.words), "one is as near")
 
     def subject(self) -> Subject:
-        return Subject(FILE, "resolve", self.domain, self.check, modular=["resolve"])
+        return Subject(
+            FILE, "resolve", self.domain, self.check, modular=["resolve"], contracts={"el_min_u32": self.nearer}
+        )
 
 
 def packed(channels: list[Poly]) -> Poly:

@@ -203,7 +203,7 @@ SHORT = Fault(WALK, "enum { EL_MAX_PIECE = 64 };", "enum { EL_MAX_PIECE = 3 };")
 
 def run(folder: Path, tree: Path) -> subprocess.CompletedProcess[str]:
     program = folder / "spans"
-    compile_c(PROGRAM, program, "-fsanitize=address,undefined", "-fno-sanitize-recover", tree=tree)
+    compile_c(PROGRAM, program, "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover", tree=tree)
     return subprocess.run([program], capture_output=True, text=True, check=False, timeout=300)
 
 
