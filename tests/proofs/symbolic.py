@@ -383,9 +383,10 @@ class Path:
         constant = poly.constant
         if constant is not None:
             return Poly.of(constant // divisor)
-        # What is a multiple of the divisor leaves the floor as it is; a constant is taken apart.
-        whole = Poly({m: factor // divisor for m, factor in poly.terms.items() if factor % divisor == 0 or not m})
+        # What is a multiple of the divisor leaves the floor as it is; so does that much of the constant beside it.
+        whole = Poly({monomial: factor // divisor for monomial, factor in poly.terms.items() if factor % divisor == 0})
         if whole.terms:
+            whole += poly.terms.get((), 0) // divisor if () not in whole.terms else 0
             return whole + self.floor(poly - whole * divisor, divisor)
         # So does a common factor.
         common = math.gcd(divisor, *poly.terms.values())
