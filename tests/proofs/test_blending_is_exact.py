@@ -112,24 +112,26 @@ def pair() -> Subject:
     )
 
 
-def share() -> Subject:
-    """Of one colour's share, as el_rgb565_share_of makes it."""
+def shares() -> Subject:
+    """Of one colour's shares, as el_rgb565_share makes them."""
     blend = Blend(2, 1)
 
     def domain(machine: Machine) -> list[Any]:
-        under, over, alpha = blend.words(machine, "uint32_t")
-        return [under, machine.call("el_rgb565_share_of", machine.exactly("uint16_t", over.poly), alpha)]
+        under, _, alpha = blend.words(machine, "uint32_t")
+        ((_, over), _) = blend.pixels
+        parts = [machine.call("el_rgb565_share", machine.exactly("uint32_t", channel), alpha) for channel in over]
+        return [under, machine.exactly("uint32_t", MOST - alpha.poly), *parts]
 
     return Subject(
         FILE,
-        "el_rgb565_blend_share",
+        "el_rgb565_blend_shares",
         domain,
         lambda machine, _, result: blend.check(machine, result),
-        lemmas={f"el_rgb565_blend_share.{name}": blend.pair(i) for i, name in enumerate("rgb")},
+        lemmas={f"el_rgb565_blend_shares.{name}": blend.pair(i) for i, name in enumerate("rgb")},
     )
 
 
-SUBJECTS = [single, pair, share]
+SUBJECTS = [single, pair, shares]
 
 
 @pytest.mark.parametrize("subject", SUBJECTS)
@@ -174,9 +176,10 @@ def test_alpha_is_all_of_its_range() -> None:
         (pair, "under_r = under >> 11 & 0x001F001FU", "under_r = under >> 10 & 0x001F001FU"),
         (pair, "((over & 0x001F001FU) - under_b) * alpha + 0x00800080U", "((over & 0x001F001FU) - under_b) * alpha"),
         (pair, "(over >> 5 & 0x003F003FU) - under_g", "(over >> 5 & 0x001F003FU) - under_g"),
-        (share, "256U - alpha", "255U - alpha"),
-        (share, "(over & 31U) * alpha * 0x10001U", "(over & 31U) * alpha * 0x10000U"),
-        (share, "(under & 0x001F001FU) * over.rest", "(under & 0x001F001FU) * over.rest / 2U * 2U"),
+        (shares, "channel * alpha * 0x10001U + 0x00800080U", "channel * alpha * 0x10001U + 0x00800040U"),
+        (shares, "channel * alpha * 0x10001U", "channel * alpha * 0x10000U"),
+        (shares, "(under >> 5 & 0x003F003FU) * rest", "(under >> 5 & 0x001F003FU) * rest"),
+        (shares, "(under & 0x001F001FU) * rest + blue", "(under & 0x001F001FU) * rest + green"),
         (alpha_256, "alpha + (alpha >> 7)", "alpha + (alpha >> 6)"),
         (alpha_256, "alpha + (alpha >> 7)", "alpha"),
     ],

@@ -226,6 +226,7 @@ def test_all_short_spans(tmp_path: Path) -> None:
         ("            x = drawn;\n", ""),
         ("r.begin += count;", "r.begin += count - (count > 1U);"),
         ("? r.end - r.begin : LINE;", "? r.end - r.begin : LINE + 1;"),
+        ("el_rgb565_share(colour >> 11, alpha)", "el_rgb565_share(colour >> 12, alpha)"),
         ("LINE = 2 * EL_MAX_PIECE", "LINE = EL_MAX_PIECE"),
         ("line + ((uintptr_t)pixels >> 1 & 1U)", "line"),
         ("el_rgb565_blend_pair(*word, *colours++, alpha)", "el_rgb565_blend_pair(*word, *colours, alpha)"),

@@ -111,7 +111,10 @@ static EL_APART void blend(const el_mixed_brush *b, const stretch *s)
 /* One colour over `count` pixels, its share a constant; two at a time, from a word's begin on. */
 static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colour, uint32_t alpha)
 {
-    const el_rgb565_share share = el_rgb565_share_of(colour, alpha);
+    const uint32_t rest = 256U - alpha;
+    const uint32_t red = el_rgb565_share(colour >> 11, alpha);
+    const uint32_t green = el_rgb565_share(colour >> 5 & 63U, alpha);
+    const uint32_t blue = el_rgb565_share(colour & 31U, alpha);
     if (((uintptr_t)pixel & 2U) != 0) {
         *pixel = el_rgb565_blend(*pixel, colour, alpha);
         pixel++;
@@ -119,7 +122,7 @@ static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colo
     }
     el_word *word = (el_word *)(void *)pixel;
     for (const el_word *const end = word + count / 2U; word != end; word++) {
-        *word = el_rgb565_blend_share(*word, share);
+        *word = el_rgb565_blend_shares(*word, rest, red, green, blue);
     }
     if ((count & 1U) != 0) {
         pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], colour, alpha);
