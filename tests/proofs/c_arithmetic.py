@@ -10,6 +10,7 @@ meant.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Collection
 from typing import Any
@@ -18,6 +19,19 @@ from pycparser import c_ast
 
 from c_values import BOOL, I64, INT, IntType, Number, Pointer
 from symbolic import Path, Poly, ProofError
+
+
+def _have_no_bit_in_common(a: Poly, b: Poly) -> bool:
+    """Whether each is a sum of terms >= 0 in bits of their own: from what it is a multiple of to what it is at most."""
+    fields = []
+    for poly in (a, b):
+        for monomial, factor in poly.terms.items():
+            low, high = Poly({monomial: factor}).interval()
+            if low < 0:
+                return False
+            fields.append((factor & -factor, high))
+    fields.sort()
+    return all(high < unit for (_, high), (unit, _) in itertools.pairwise(fields))
 
 
 class Arithmetic:
@@ -155,22 +169,29 @@ class Arithmetic:
         if b.constant == 0:
             return b if operator == "&" else a
         if operator == "&" and b.constant is not None and b.constant > 0:
-            unit = b.constant & -b.constant
-            ones = b.constant // unit
-            if ones & (ones + 1) == 0:
-                upper = self.path.floor(a, unit)
-                return (upper - self.path.floor(upper, ones + 1) * (ones + 1)) * unit
+            return self._masked(a, b.constant)
         if operator == "^" and b.constant == (-1 if of.signed else of.high):
             return b - a
         if operator == "|":
             return self._or(a, b)
         raise NotImplementedError(f"{where.coord}: {operator}")
 
+    def _masked(self, a: Poly, mask: int) -> Poly:
+        """a & mask, mask > 0: the sum of the fields that the mask's ones are, from the lowest on."""
+        unit = mask & -mask
+        end = (mask + unit) & -(mask + unit)  # the first bit above the lowest field
+        upper = self.path.floor(a, unit)
+        field = (upper - self.path.floor(upper, end // unit) * (end // unit)) * unit
+        rest = mask & -end
+        return field + self._masked(a, rest) if rest else field
+
     def _or(self, a: Poly, b: Poly) -> Poly:
         for upper, lower in ((a, b), (b, a)):
             unit = math.gcd(*upper.terms.values())
             if self.path.within(lower, 0, (unit & -unit) - 1):
                 return upper + lower
+        if _have_no_bit_in_common(a, b):
+            return a + b
         if self.packs:
             raise ProofError(f"{self.functions[-1]}: fields that are put together by | overlap")
         negative = [part for part in (a, b) if not self.path.decide(part, -part - 1)]

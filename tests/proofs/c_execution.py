@@ -177,7 +177,7 @@ class Machine(Arithmetic):
 
     def load(self, cell: Cell) -> Any:
         if isinstance(cell.type, ArrayType):
-            return Pointer(cell.content)
+            return cell.content if isinstance(cell.content, Memory) else Pointer(cell.content)
         if isinstance(cell.type, StructType):
             return cell
         if cell.content is None:
@@ -256,7 +256,7 @@ class Machine(Arithmetic):
             if isinstance(pointer, Memory):
                 self.path.prove(subscript, f"{node.coord}: index >= 0")
                 self.path.prove(pointer.length - 1 - subscript, f"{node.coord}: index < length")
-                return Cell(pointer.type, self.number(str(pointer.type), "element"))
+                return Cell(pointer.type, Number(pointer.type, pointer.element(self.path, subscript)))
             return Pointer(pointer.cells, pointer.index + self.path.choose(subscript)).cell
         if isinstance(node, c_ast.UnaryOp) and node.op == "*":
             target: Cell = self.evaluate(node.expr).cell
@@ -304,6 +304,10 @@ class Machine(Arithmetic):
             return self.type_of(self.unit.functions[node.name.name].decl.type.type)  # type: ignore[no-any-return]
         if isinstance(node, c_ast.ID) and node.name in self.unit.constants:
             return INT
+        if isinstance(node, c_ast.ArrayRef):
+            elements = self.evaluate(node.name)
+            element: IntType = elements.type if isinstance(elements, Memory) else elements.cells[0].type
+            return element
         return self.lvalue(node).type  # type: ignore[no-any-return]
 
     def _expr_UnaryOp(self, node: c_ast.UnaryOp) -> Any:

@@ -63,6 +63,8 @@ MIXED = [
 COMPANIONS: dict[str, list[str]] = {
     "base/divide.c": ["base/reciprocals.c"],
     "base/fixed.c": [],
+    "base/image.h": [],
+    "base/rgb565.h": [],
     "geometry/transform.c": [
         *("geometry/cull.c", "geometry/vertex.c", "geometry/pose.c", "geometry/vector.c"),
         *("base/fixed.c", "base/angle.c"),
@@ -85,6 +87,12 @@ COMPANIONS: dict[str, list[str]] = {
     "raster/triangle.c": ["raster/plane.c", "base/fixed.c", *DIVISION],
     "raster/texture_walk.c": DIVISION,
     "raster/spans.c": [],
+    "raster/stripes.c": ["base/fixed.c"],
+    "raster/fog.h": ["base/fixed.c"],
+    "raster/field.c": ["raster/triangle.c"],
+    "raster/sampled.c": ["base/fixed.c"],
+    "raster/samples.c": ["base/fixed.c"],
+    "raster/wires.c": ["base/fixed.c"],
     "raster/tiny_triangle.c": ["raster/gather.c", "geometry/vertex.c", "base/fixed.c", *DIVISION],
     "raster/fill.c": [
         *("raster/spans.c", "raster/fill_texture.c", "raster/small_triangle.c", "raster/small_gouraud.c"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from symbolic import Poly, ProofError
+from symbolic import Path, Poly, ProofError
 
 
 @dataclass(frozen=True)
@@ -86,6 +86,10 @@ class Memory:
 
     type: IntType
     length: int | Poly
+
+    def element(self, path: Path, index: Poly) -> Poly:
+        """What is at an index within it."""
+        return path.atom(f"element {index}", self.type.low, self.type.high)
 
 
 KEYWORDS = {

@@ -383,9 +383,10 @@ class Path:
         constant = poly.constant
         if constant is not None:
             return Poly.of(constant // divisor)
-        # What is a multiple of the divisor leaves the floor as it is.
+        # What is a multiple of the divisor leaves the floor as it is; so does that much of the constant beside it.
         whole = Poly({monomial: factor // divisor for monomial, factor in poly.terms.items() if factor % divisor == 0})
         if whole.terms:
+            whole += poly.terms.get((), 0) // divisor if () not in whole.terms else 0
             return whole + self.floor(poly - whole * divisor, divisor)
         # So does a common factor.
         common = math.gcd(divisor, *poly.terms.values())
@@ -395,6 +396,13 @@ class Path:
         low, high = self.bounds(poly)
         if low // divisor == high // divisor:
             return Poly.of(low // divisor)
+        # So does what factors have beside multiples of a part of the divisor, where all of that is below the part.
+        for part in sorted({divisor, *(math.gcd(factor, divisor) for factor in poly.terms.values())} - {1}):
+            rest = Poly({monomial: factor % part for monomial, factor in poly.terms.items()})
+            least, most = rest.interval()
+            if rest.terms and least >= 0 and most < part:
+                whole = Poly({monomial: factor // part for monomial, factor in poly.terms.items()})
+                return self.floor(whole, divisor // part)
         monomial = next(iter(poly.terms)) if len(poly.terms) == 1 else ()
         inner = self._floor_of.get(monomial[0]) if len(monomial) == 1 else None
         if inner is not None and poly.terms == inner[0].terms:

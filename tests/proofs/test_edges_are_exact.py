@@ -28,6 +28,7 @@ may be too high:
 * el_first_centre(a) <= j if and only if the centre of row j is not above a: with rows [first(top), first(bottom)), a
   centre on a top edge counts, one on a bottom edge does not.
 
+Edges may have moved by up to half a pixel: of samples from their place to the centre, of wires to the border before it.
 The crossing lies between the edge's ends on its own rows, since 0 <= t < dy there and x0 dy + t dx is
 (dy - t) x0 + t x1. That is given to the path as the four products that are not negative.
 """
@@ -57,19 +58,24 @@ def limits(machine: Machine) -> tuple[int, int]:
 class Ends:
     """An edge's ends, a row of its own that it is made for, and one that it is stepped to."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: Machine, moves: bool = False) -> None:
         path = machine.path
         self.scale, self.guard = limits(machine)
         s, guard = self.scale, self.guard
-        self.x0, self.x1 = path.atom("x0", -guard, guard), path.atom("x1", -guard, guard)
-        self.y0 = path.atom("y0", -guard, guard - 1)
-        self.y1 = path.atom("y1", self.y0.constant + 1 if self.y0.constant is not None else -guard, guard)
+        # Where an edge moves, both of its ends do.
+        self.reach = reach = guard + (s // 2 if moves else 0)
+        self.x0, self.x1 = path.atom("x0", -reach, reach), path.atom("x1", -reach, reach)
+        self.y0 = path.atom("y0", -reach, reach - 1)
+        self.y1 = path.atom("y1", self.y0.constant + 1 if self.y0.constant is not None else -reach, reach)
         self.dx, self.dy = self.x1 - self.x0, self.y1 - self.y0
         path.assume(self.dy - 1)
+        if moves:
+            for room in (2 * guard - self.dy, 2 * guard - self.dx, 2 * guard + self.dx):
+                path.assume(room)
         if self.y0.constant is not None and self.y1.constant is not None:
             self.row = path.atom("row", (self.y0.constant + s // 2 - 1) // s, (self.y1.constant + s // 2 - 1) // s - 1)
             return
-        self.row = path.atom("row", -2040, 2040)
+        self.row = path.atom("row", -2041, 2041)
         self.t = self.row * s + s // 2 - self.y0
         path.assume(self.t)
         path.assume(self.dy - 1 - self.t)
@@ -79,8 +85,8 @@ class Ends:
 
     def _between_ends(self, path: Path, t: Poly) -> None:
         for x, rest in ((self.x0, self.dy - t), (self.x1, t)):
-            path.assume_product(x + self.guard, rest)
-            path.assume_product(self.guard - x, rest)
+            path.assume_product(x + self.reach, rest)
+            path.assume_product(self.reach - x, rest)
 
     def stepped(self, machine: Machine) -> tuple[Poly, Poly, Poly]:
         """Another row of the edge: k, its t and n."""
@@ -96,7 +102,7 @@ ENDS: dict[int, Ends] = {}
 
 
 def make_domain(machine: Machine) -> list[Any]:
-    ends = Ends(machine)
+    ends = Ends(machine, moves=True)
     ENDS[id(machine.path)] = ends
     edge = Pointer([machine.struct("el_edge")])
     return [edge, *(machine.exactly("int32_t", n) for n in (ends.x0, ends.y0, ends.x1, ends.y1, ends.row))]

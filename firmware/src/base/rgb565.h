@@ -54,6 +54,22 @@ static inline uint32_t el_rgb565_blend_pair(uint32_t under, uint32_t over, uint3
     return (r >> 8 & 0x001F001FU) << 11 | (g >> 8 & 0x003F003FU) << 5 | (b >> 8 & 0x001F001FU);
 }
 
+/* A channel's part of both pixels of a pair, with the half that rounds. */
+static inline uint32_t el_rgb565_share(uint32_t channel, uint32_t alpha)
+{
+    return channel * alpha * 0x10001U + 0x00800080U;
+}
+
+/* el_rgb565_blend_pair with the same colour in both pixels, of which these are the shares, with alpha = 256 - rest. */
+static inline uint32_t el_rgb565_blend_shares(uint32_t under, uint32_t rest, uint32_t red, uint32_t green,
+                                              uint32_t blue)
+{
+    const uint32_t r = (under >> 11 & 0x001F001FU) * rest + red;
+    const uint32_t g = (under >> 5 & 0x003F003FU) * rest + green;
+    const uint32_t b = (under & 0x001F001FU) * rest + blue;
+    return (r >> 8 & 0x001F001FU) << 11 | (g >> 8 & 0x003F003FU) << 5 | (b >> 8 & 0x001F001FU);
+}
+
 #ifdef __cplusplus
 }
 #endif

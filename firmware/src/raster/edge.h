@@ -46,7 +46,8 @@ static inline int32_t el_edge_x(const el_edge *edge)
 enum { EL_EDGE_SHORT = 511, EL_EDGE_NARROW = 1023 };
 
 /* Sets up the edge from (x0, y0) down to (x1, y1) for `row`. Pre: coordinates in 1/EL_SUBPIXELS px within
- * +-EL_GUARD_SUB, y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
+ * +-EL_GUARD_SUB, or both ends of such an edge moved by up to half a pixel on either axis, as samples and wires do;
+ * y0 < y1, el_first_centre(y0) <= row < el_first_centre(y1). */
 static inline void el_edge_make(el_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row)
 {
     const int32_t dx = x1 - x0;              /* |dx| <= 2 * EL_GUARD_SUB */

@@ -112,9 +112,9 @@ static EL_APART void blend(const el_mixed_brush *b, const stretch *s)
 static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colour, uint32_t alpha)
 {
     const uint32_t rest = 256U - alpha;
-    const uint32_t r_share = (colour >> 11) * alpha * 0x10001U + 0x00800080U;
-    const uint32_t g_share = (colour >> 5 & 63U) * alpha * 0x10001U + 0x00800080U;
-    const uint32_t b_share = (colour & 31U) * alpha * 0x10001U + 0x00800080U;
+    const uint32_t red = el_rgb565_share(colour >> 11, alpha);
+    const uint32_t green = el_rgb565_share(colour >> 5 & 63U, alpha);
+    const uint32_t blue = el_rgb565_share(colour & 31U, alpha);
     if (((uintptr_t)pixel & 2U) != 0) {
         *pixel = el_rgb565_blend(*pixel, colour, alpha);
         pixel++;
@@ -122,11 +122,7 @@ static EL_APART void blend_colour(uint16_t *pixel, uint32_t count, uint16_t colo
     }
     el_word *word = (el_word *)(void *)pixel;
     for (const el_word *const end = word + count / 2U; word != end; word++) {
-        const uint32_t under = *word;
-        const uint32_t red = (under >> 11 & 0x001F001FU) * rest + r_share;
-        const uint32_t green = (under >> 5 & 0x003F003FU) * rest + g_share;
-        const uint32_t blue = (under & 0x001F001FU) * rest + b_share;
-        *word = (red >> 8 & 0x001F001FU) << 11 | (green >> 8 & 0x003F003FU) << 5 | (blue >> 8 & 0x001F001FU);
+        *word = el_rgb565_blend_shares(*word, rest, red, green, blue);
     }
     if ((count & 1U) != 0) {
         pixel[count - 1U] = el_rgb565_blend(pixel[count - 1U], colour, alpha);

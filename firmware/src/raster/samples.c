@@ -34,7 +34,7 @@ static EL_SPECIALISED void resolve(uint16_t *colour, uint16_t *depth, const uint
     /* Sums of eight are below 2^8, 2^8 and 2^9 from bits 0, 11 and 21 on. */
     const uint32_t half = count / 2U;
     const uint32_t mean = (sum + (half | half << 11 | half << 21)) / count & EL_RGB565_SPREAD;
-    *colour = (uint16_t)(mean | mean >> 16);
+    *colour = (uint16_t)((mean | mean >> 16) & 0xFFFFU);
     *depth = (uint16_t)(nearest >> 16);
 }
 
