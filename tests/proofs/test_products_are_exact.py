@@ -63,7 +63,7 @@ def down_domain(machine: Machine) -> list[Any]:
     path = machine.path
     a, b = (
         path.atom("a", 1 - 2**15, 2**15 - 1),
-        path.atom("b_high", 0, 2**15 - 1) * 2**16 + path.atom("b_low", 0, 65535),
+        path.atom("b_high", -(2**15), 2**15 - 1) * 2**16 + path.atom("b_low", 0, 65535),
     )
     path.decide(a, -a - 1)
     path.assume(2**42 - 1 - a * b)

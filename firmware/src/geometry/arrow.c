@@ -20,38 +20,41 @@ bool el_arrow_make(el_arrow *arrow, const int32_t vector[3])
     return true;
 }
 
-bool el_arrow_between(el_arrow *arrow, const int64_t from[3], const int32_t to[3])
+/* Where 31 bits are too few: with the upper 30 of the greatest. */
+static bool make_of_far(el_arrow *arrow, const int64_t from[3], const int32_t to[3])
 {
-    int64_t way[3];
-    int32_t vector[3];
-    uint32_t beyond = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        way[i] = to[i] - from[i];
-        vector[i] = (int32_t)way[i];
-        beyond |= (uint32_t)((uint64_t)(way[i] + (1LL << 30)) >> 31); /* 0 from -2^30 to below 2^30 */
-    }
-    if (beyond == 0) {
-        return el_arrow_make(arrow, vector);
-    }
     uint64_t bits = 0;
     for (unsigned i = 0; i < 3; i++) {
-        bits |= el_abs_u64(way[i]);
+        bits |= el_abs_u64(to[i] - from[i]);
     }
-    const int down = el_bit_length_u64(bits) - 30; /* at least 1 */
+    const int down = el_bit_length_u64(bits) - 30;
+    int32_t vector[3];
     for (unsigned i = 0; i < 3; i++) {
-        vector[i] = (int32_t)(way[i] >> down);
+        vector[i] = (int32_t)((to[i] - from[i]) >> down);
     }
-    (void)el_arrow_make(arrow, vector);
+    const bool made = el_arrow_make(arrow, vector);
     arrow->shift -= down;
-    return true;
+    return made;
+}
+
+bool el_arrow_between(el_arrow *arrow, const int64_t from[3], const int32_t to[3])
+{
+    int32_t vector[3];
+    int32_t beyond = 0; /* bits from the 31st on that are not the sign's */
+    for (unsigned i = 0; i < 3; i++) {
+        const int64_t way = to[i] - from[i];
+        const int32_t upper = (int32_t)(way >> 30); /* 0 or -1 */
+        vector[i] = (int32_t)way;
+        beyond |= upper ^ (upper >> 31);
+    }
+    return beyond == 0 ? el_arrow_make(arrow, vector) : make_of_far(arrow, from, to);
 }
 
 void el_arrow_measure(el_arrow *arrow)
 {
     uint32_t square = 0;
     for (unsigned i = 0; i < 3; i++) {
-        const uint32_t part = (uint32_t)(arrow->v[i] < 0 ? -arrow->v[i] : arrow->v[i]);
-        square += el_product_high_u32(part, part); /* less than 2^30 each */
+        square += (uint32_t)(el_product_i32(arrow->v[i], arrow->v[i]) >> 32); /* less than 2^30 each */
     }
     arrow->square = square;
     /* 2^46 / sqrt(square) */

@@ -12,16 +12,17 @@ extern "C" {
 #endif
 
 typedef struct el_arrow {
-    int32_t v[3];     /* the vector times 2^shift: 2^30 <= the greatest of |v| < 2^31 */
-    int shift;        /* -33 to 30 */
-    uint32_t square;  /* v.v / 2^32, too low by less than 3: 2^28 to 3 * 2^30 */
-    uint32_t to_unit; /* 2^62 / |v|, off by less than 2^-26 of it: times a part of v and 2^-32 that of length 1 in Q30 */
+    int32_t v[3];    /* the vector times 2^shift: 2^30 <= the greatest of |v| < 2^31 */
+    int shift;       /* -32 to 30 */
+    uint32_t square; /* v.v / 2^32, too low by less than 3: 2^28 to 3 * 2^30 */
+    uint32_t
+        to_unit; /* 2^62 / |v|, off by less than 2^-26 of it: times a part of v and 2^-32 that of length 1 in Q30 */
 } el_arrow;
 
 /* v and shift of any vector without INT32_MIN. False: it has no length, and nothing was made. */
 bool el_arrow_make(el_arrow *arrow, const int32_t vector[3]);
 
-/* The same of to - from, which lies within +-2^62: exact where that fits 31 bits. */
+/* The same of to - from, |from| < 2^60: exact where that fits 31 bits. */
 bool el_arrow_between(el_arrow *arrow, const int64_t from[3], const int32_t to[3]);
 
 /* square and to_unit, from v. */

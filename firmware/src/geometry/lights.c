@@ -10,14 +10,19 @@
 /* Parts of a whole are 16 bits, the whole 1 less than 1, so that two make a product of 32. */
 enum { WHOLE_Q16 = 65535 };
 
+/* Places are multiplied by halves of factors, and moved down, or up to no more than 2^57: where a mesh's units are so large
+ * that the world has no room for two of them. */
+enum { HALF_BITS = 12, FALL_MIN = -26, FALL_MAX = 31 };
+
 /* What all spots of a mesh have in common. */
 typedef struct setting {
     const el_lighting *lighting;
     const el_pose *pose;
     const int32_t *eye_q16;
-    int32_t to_world[3][3]; /* from position units: rotation times the scale's upper 32 bits, below 2^30 */
-    int fall;               /* and moved down by so much, Q16; -10 to 59 */
-    bool shines;            /* there are highlights */
+    /* Rotation times scale, upper * 2^HALF_BITS + lower, within 2^26; and how far down a place is moved by to be Q16. */
+    int32_t upper[3][3], lower[3][3];
+    int fall;
+    bool shines; /* there are highlights */
 } setting;
 
 /* A place on a surface, in world space. */
@@ -41,8 +46,9 @@ static uint32_t times_q16(uint32_t a_q16, uint32_t b_q16)
 /* n / d in Q31, too low by less than 2^-27 of it: n <= d, d > 0. */
 static uint32_t ratio_q31(uint32_t n, uint32_t d)
 {
-    const unsigned zeros = el_normalise(&d);
-    return el_product_high_u32(n << zeros, el_reciprocal_near(d));
+    uint32_t moved_d = d;
+    const unsigned zeros = el_normalise(&moved_d);
+    return el_product_high_u32(n << zeros, el_reciprocal_near(moved_d));
 }
 
 /* 1 / (1 + (length of v / half)^2). */
@@ -51,9 +57,10 @@ static uint32_t attenuation_q16(const el_arrow *v, uint32_t half_q16)
     if (half_q16 == 0) {
         return WHOLE_Q16;
     }
-    /* Both squares have 31 bits and an exponent. */
-    const int zeros = (int)el_normalise(&half_q16);
-    uint32_t near_part = el_product_high_u32(half_q16, half_q16) >> 1;
+    /* Squares of 31 bits, each with its exponent. */
+    uint32_t half = half_q16;
+    const int zeros = (int)el_normalise(&half);
+    uint32_t near_part = el_product_high_u32(half, half) >> 1;
     uint32_t far_part = v->square >> 1;
     const int apart = 2 * (zeros - v->shift);
     if (apart >= 0) {
@@ -67,7 +74,7 @@ static uint32_t attenuation_q16(const el_arrow *v, uint32_t half_q16)
 /* What of a spot's light goes there. */
 static uint32_t cone_q16(const el_lamp *lamp, const int32_t to_lamp_q30[3])
 {
-    const int64_t cosine_q30 = -el_vector_dot(lamp->direction_q30, to_lamp_q30) >> 30;
+    const int64_t cosine_q30 = -4 * (int64_t)el_vector_dot_high(lamp->direction_q30, to_lamp_q30);
     if (cosine_q30 <= lamp->outer_q30) {
         return 0;
     }
@@ -76,7 +83,8 @@ static uint32_t cone_q16(const el_lamp *lamp, const int32_t to_lamp_q30[3])
     }
     /* Between the two, whose difference is below 2^32. */
     const uint32_t t_q16 =
-        ratio_q31((uint32_t)(cosine_q30 - lamp->outer_q30), (uint32_t)lamp->inner_q30 - (uint32_t)lamp->outer_q30) >> 15;
+        ratio_q31((uint32_t)(cosine_q30 - lamp->outer_q30), (uint32_t)lamp->inner_q30 - (uint32_t)lamp->outer_q30) >>
+        15;
     return ((t_q16 * t_q16 >> 16) * ((3U << 15) - t_q16)) >> 15; /* the last product is 2^31 where t is 1 */
 }
 
@@ -156,7 +164,7 @@ static void add_lamp(sums *s, const setting *set, const el_lamp *lamp, const spo
     uint32_t arrives_q16 = WHOLE_Q16;
     int32_t cosine_q28; /* of a direction that has length 1 */
     if (lamp->kind == EL_LAMP_DIRECTIONAL) {
-        cosine_q28 = (int32_t)(el_vector_dot(at->normal_q30, to_lamp_q30) >> 32);
+        cosine_q28 = el_vector_dot_high(at->normal_q30, to_lamp_q30);
         if (cosine_q28 <= 0) {
             return;
         }
@@ -166,7 +174,7 @@ static void add_lamp(sums *s, const setting *set, const el_lamp *lamp, const spo
             return; /* the lamp is in the surface */
         }
         /* Which side of the surface it is on is known before its distance. */
-        const int32_t along = (int32_t)(el_vector_dot(at->normal_q30, v.v) >> 32);
+        const int32_t along = el_vector_dot_high(at->normal_q30, v.v);
         if (along <= 0) {
             return;
         }
@@ -184,11 +192,10 @@ static void add_lamp(sums *s, const setting *set, const el_lamp *lamp, const spo
         }
         arrives_q16 = times_q16(arrives_q16, attenuation_q16(&v, lamp->half_q16));
     }
-    const uint32_t diffuse_q16 = times_q16(arrives_q16, el_min_u32(((uint32_t)cosine_q28 + (1U << 11)) >> 12, WHOLE_Q16));
+    const uint32_t diffuse_q16 =
+        times_q16(arrives_q16, el_min_u32(((uint32_t)cosine_q28 + (1U << 11)) >> 12, WHOLE_Q16));
     const uint32_t specular_q16 =
-        set->shines
-            ? times_q16(arrives_q16, highlight_q16(at, to_lamp_q30, cosine_q28, set->lighting->highlight))
-            : 0U;
+        set->shines ? times_q16(arrives_q16, highlight_q16(at, to_lamp_q30, cosine_q28, set->lighting->highlight)) : 0U;
     for (unsigned i = 0; i < 3; i++) {
         s->diffuse_q16[i] += lamp->colour[i] * diffuse_q16;
         s->specular_q16[i] += lamp->colour[i] * specular_q16;
@@ -204,37 +211,52 @@ static uint32_t divide_by_255(uint32_t x)
 static void light(const setting *set, const spot *at, const uint8_t own[3], uint8_t colour[3])
 {
     const el_lighting *const l = set->lighting;
-    sums s = {{0}, {0}};
+    sums s;
+    for (unsigned i = 0; i < 3; i++) {
+        s.diffuse_q16[i] = ((uint32_t)l->ambient[i] << 16) + 128U;
+        s.specular_q16[i] = 128U;
+    }
     for (unsigned i = 0; i < l->lamp_count; i++) {
         add_lamp(&s, set, &l->lamps[i], at);
     }
     for (unsigned i = 0; i < 3; i++) {
         /* Light in 255ths, 8.8, below 2^22; times two colours below 2^31. */
-        const uint32_t diffuse_q8 = ((uint32_t)l->ambient[i] << 8) + ((s.diffuse_q16[i] + 128U) >> 8);
-        const uint32_t specular_q8 = (s.specular_q16[i] + 128U) >> 8;
-        const uint32_t sum_q8 =
-            ((uint32_t)l->emissive[i] << 8) + divide_by_255(own[i] * diffuse_q8 + l->specular[i] * specular_q8);
+        const uint32_t reflected = own[i] * (s.diffuse_q16[i] >> 8) + l->specular[i] * (s.specular_q16[i] >> 8);
+        const uint32_t sum_q8 = ((uint32_t)l->emissive[i] << 8) + divide_by_255(reflected);
         colour[i] = (uint8_t)el_min_u32((sum_q8 + 128U) >> 8, 255U);
     }
 }
 
-/* `count`: how many places each that is given is the sum of. */
+/* `count`: of how many places each one is the sum. */
 static void set_up(setting *set, const el_lighting *l, const el_mesh *mesh, const el_pose *pose, const int32_t *eye_q16,
                    uint32_t count)
 {
-    uint32_t scale = pose->scale_q16 == 0 ? 1U : pose->scale_q16;
+    uint32_t scale = el_max_u32(pose->scale_q16, 1);
     const int zeros = (int)el_normalise(&scale);
     scale /= count;
     for (unsigned i = 0; i < 3; i++) {
         for (unsigned j = 0; j < 3; j++) {
-            set->to_world[i][j] = el_multiply_high_i32_u32(pose->rotation_q30[i][j], scale);
+            /* Times scale / 2^32: within 2^30, and 2^26 of it are kept. */
+            const int32_t factor = (el_multiply_high_i32_u32(el_clamp_unit(pose->rotation_q30[i][j]), scale) + 8) >> 4;
+            set->upper[i][j] = factor >> HALF_BITS;
+            set->lower[i][j] = (int32_t)((uint32_t)factor & ((1U << HALF_BITS) - 1U));
         }
     }
-    set->fall = zeros - 2 - mesh->scale_log2;
+    set->fall = el_max_i32(el_min_i32(zeros - 6 - HALF_BITS - mesh->scale_log2, FALL_MAX), FALL_MIN);
     set->lighting = l;
     set->pose = pose;
     set->eye_q16 = eye_q16;
     set->shines = l->highlight != NULL && (l->specular[0] | l->specular[1] | l->specular[2]) != 0;
+}
+
+/* (high * 2^HALF_BITS + low) / 2^(HALF_BITS + fall), rounded down. */
+static int64_t moved(int32_t high, int32_t low, int fall)
+{
+    if (fall >= 0) {
+        return (high + (low >> HALF_BITS)) >> fall;
+    }
+    const int32_t factor = 1 << -fall;
+    return (int64_t)high * factor + ((int64_t)low * factor >> HALF_BITS);
 }
 
 /* Where a place of the mesh and a sum of its normals are. The normal's length is left out; one that has none looks along
@@ -244,10 +266,12 @@ static void find_spot(spot *at, const setting *set, const int32_t place[3], cons
     int32_t turned[3];
     el_arrow arrow;
     for (unsigned i = 0; i < 3; i++) {
-        /* |place| < 2^17: below 2^49, and below 2^59 where it is moved up. */
-        const int64_t sum = el_vector_dot(set->to_world[i], place);
-        const int64_t scaled = set->fall < 0 ? sum * (1 << -set->fall) : sum >> set->fall;
-        at->place_q16[i] = set->pose->position_q16[i] + scaled;
+        /* |place| <= 2^15, or 3 * 2^15 with a third of the factors: 3 * 2^29 at most, and less than 9 * 2^27. */
+        const int32_t *const upper = set->upper[i];
+        const int32_t *const lower = set->lower[i];
+        const int32_t high = upper[0] * place[0] + upper[1] * place[1] + upper[2] * place[2];
+        const int32_t low = lower[0] * place[0] + lower[1] * place[1] + lower[2] * place[2];
+        at->place_q16[i] = set->pose->position_q16[i] + moved(high, low, set->fall);
         const int32_t *const row = set->pose->rotation_q30[i];
         /* |normal| <= 3 * 2^7: below 2^29 each. */
         turned[i] = el_product_down_11(normal[0], row[0]) + el_product_down_11(normal[1], row[1]) +
@@ -272,7 +296,7 @@ static void find_spot(spot *at, const setting *set, const int32_t place[3], cons
             at->to_eye_q30[i] = at->normal_q30[i];
         }
     }
-    at->towards_eye_q28 = (int32_t)(el_vector_dot(at->normal_q30, at->to_eye_q30) >> 32);
+    at->towards_eye_q28 = el_vector_dot_high(at->normal_q30, at->to_eye_q30);
     if (set->lighting->two_sided && at->towards_eye_q28 < 0) {
         at->towards_eye_q28 = -at->towards_eye_q28;
         for (unsigned i = 0; i < 3; i++) {
