@@ -100,10 +100,11 @@ def reciprocal_of_short(machine: Machine, arguments: list[Any]) -> Number:
 
 
 def product_down_11(machine: Machine, arguments: list[Any]) -> Number:
-    """el_product_down_11: floor(a b / 2^11). Pre: |a| < 2^15, and it fits 32 bits, which its caller proves."""
+    """el_product_down_11: floor(a b / 2^11). Pre: |a| < 2^15, 0 <= b, and it fits 32 bits, which its caller proves."""
     a, b = (argument.poly for argument in arguments)
     machine.path.prove(2**15 - 1 - a, "el_product_down_11: a < 2^15")
     machine.path.prove(2**15 - 1 + a, "el_product_down_11: a > -2^15")
+    machine.path.prove(b, "el_product_down_11: b >= 0")
     return machine.exactly("int32_t", machine.path.floor(a * b, 1 << 11))
 
 
