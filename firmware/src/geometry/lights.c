@@ -12,7 +12,7 @@ enum { WHOLE_Q16 = 65535 };
 
 /* Places are multiplied by halves of factors, and moved down, or up to no more than 2^57: where a mesh's units are so large
  * that the world has no room for two of them. */
-enum { HALF_BITS = 12, FALL_MIN = -26, FALL_MAX = 31 };
+enum { HALF_BITS = 12, FALL_MIN = -26, FALL_MAX = 30 };
 
 /* What all spots of a mesh have in common. */
 typedef struct setting {
@@ -22,7 +22,8 @@ typedef struct setting {
     /* Rotation times scale, upper * 2^HALF_BITS + lower, within 2^26; and how far down a place is moved by to be Q16. */
     int32_t upper[3][3], lower[3][3];
     int fall;
-    bool shines; /* there are highlights */
+    int32_t half; /* of what falls away, for rounding */
+    bool shines;  /* there are highlights */
 } setting;
 
 /* A place on a surface, in world space. */
@@ -243,19 +244,20 @@ static void set_up(setting *set, const el_lighting *l, const el_mesh *mesh, cons
         }
     }
     set->fall = el_max_i32(el_min_i32(zeros - 6 - HALF_BITS - mesh->scale_log2, FALL_MAX), FALL_MIN);
+    set->half = set->fall > 0 && set->fall < FALL_MAX ? 1 << (set->fall - 1) : 0;
     set->lighting = l;
     set->pose = pose;
     set->eye_q16 = eye_q16;
     set->shines = l->highlight != NULL && (l->specular[0] | l->specular[1] | l->specular[2]) != 0;
 }
 
-/* (high * 2^HALF_BITS + low) / 2^(HALF_BITS + fall), rounded down. */
-static int64_t moved(int32_t high, int32_t low, int fall)
+/* (high * 2^HALF_BITS + low) / 2^(HALF_BITS + fall), rounded to nearest, or down where that is within 2. */
+static int64_t moved(const setting *set, int32_t high, int32_t low)
 {
-    if (fall >= 0) {
-        return (high + (low >> HALF_BITS)) >> fall;
+    if (set->fall >= 0) {
+        return (high + (low >> HALF_BITS) + set->half) >> set->fall;
     }
-    const int32_t factor = 1 << -fall;
+    const int32_t factor = 1 << -set->fall;
     return (int64_t)high * factor + ((int64_t)low * factor >> HALF_BITS);
 }
 
@@ -266,12 +268,13 @@ static void find_spot(spot *at, const setting *set, const int32_t place[3], cons
     int32_t turned[3];
     el_arrow arrow;
     for (unsigned i = 0; i < 3; i++) {
-        /* |place| <= 2^15, or 3 * 2^15 with a third of the factors: 3 * 2^29 at most, and less than 9 * 2^27. */
+        /* |place| <= 2^15, or 3 * 2^15 with a third of the factors: 3 * 2^29 at most, which leaves 2^28 and more
+         * for the half, and less than 9 * 2^27. */
         const int32_t *const upper = set->upper[i];
         const int32_t *const lower = set->lower[i];
         const int32_t high = upper[0] * place[0] + upper[1] * place[1] + upper[2] * place[2];
         const int32_t low = lower[0] * place[0] + lower[1] * place[1] + lower[2] * place[2];
-        at->place_q16[i] = set->pose->position_q16[i] + moved(high, low, set->fall);
+        at->place_q16[i] = set->pose->position_q16[i] + moved(set, high, low);
         const int32_t *const row = set->pose->rotation_q30[i];
         /* |normal| <= 3 * 2^7: below 2^29 each. */
         turned[i] = el_product_down_11(normal[0], row[0]) + el_product_down_11(normal[1], row[1]) +
