@@ -1,7 +1,7 @@
 """base/root: el_reciprocal_root is within EL_ROOT_ERROR of 2^47 / sqrt(x) for each x from 2^30 to 2^32 - 1.
 
-r - E < 2^47 / sqrt(x) < r + E says (r - E)^2 x < 2^94 < (r + E)^2 x, in 128 bits: checked for each of them, and so is that
-r has its top bit, which a sum beyond 2^32 would not have.
+r - E < 2^47 / sqrt(x) < r + E says (r - E)^2 x < 2^94 < (r + E)^2 x, in 128 bits: checked for each of them, and so is
+that r has its top bit, which a sum beyond 2^32 would not have.
 """
 
 from __future__ import annotations
