@@ -200,12 +200,16 @@ if [ -f "$unity/unity.c" ]; then
         xargs -0 -P 2 -n 8 cc -std=c11 -O1 -I "$looks/src" -c && ar rc "$looks/sound.a" ./*.o)
 fi
 lights=geometry/lights.c fog=raster/fog.c mixed=raster/fill_mixed_line.c texels=raster/texel_line.c
-look test_lights "spots have a sharp border" $lights "(3U << 16) - 2U * t" "(1U << 16)"
-look test_lights "a lamp behind the surface lights it" $lights "cosine <= 0 || arrives" "arrives"
-look test_lights "light does not fade with distance" $lights "sum == 0 ?" "sum != 1 ?"
+look test_lights "spots have a sharp border" $lights "(3U << 15) - t_q16" "(1U << 15)"
+look test_lights "a lamp behind the surface lights it" $lights "if (along <= 0)" "if (along == 0)"
+look test_lights "a direction behind the surface lights it" $lights "if (cosine_q28 <= 0)" "if (cosine_q28 == 0)"
+look test_lights "light does not fade with distance" $lights "v->square >> 1" "v->square >> 31"
+look test_lights "highlights of what is not halfway" $lights "(at->to_eye_q30[i] >> 1)" "(at->to_eye_q30[i] >> 2)"
 look test_lights "highlights as of half the exponent" $lights "for (; exponent > 0; exponent >>= 1)" "for (exponent >>= 1; exponent > 0; exponent >>= 1)"
-look test_lights "both sides are the front" $lights "if (l->two_sided &&" "if (false && l->two_sided &&"
+look test_lights "both sides are the front" $lights "if (set->lighting->two_sided &&" "if (false && set->lighting->two_sided &&"
 look test_lights "nothing glows by itself" $lights "(uint32_t)l->emissive[i] << 8" "(uint32_t)l->emissive[i] << 0"
+look test_arrow "a long way is taken for its lower word" geometry/arrow.c "upper ^ (upper >> 31)" "upper & (upper >> 31)"
+look test_arrow "lengths after one step of two" base/root.c "* more_q27) >> 11" "* more_q27) >> 31"
 look test_fog "fog by the nearest entry" raster/fog.h "(fall * in_step >> step_log2)" "(fall * 0U * in_step)" $fog
 look test_fog "e^-x of too few terms" $fog "TERMS = 8" "TERMS = 2"
 look test_fog "fog begins at the eye" $fog "begin_q16 > view->near_q16 ? begin_q16" "begin_q16 > view->far_q16 ? begin_q16"

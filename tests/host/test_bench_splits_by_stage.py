@@ -96,6 +96,7 @@ def test_every_rule_has_functions() -> None:
         ("raster/texture.c", "el_mip_level", "set-up"),
         ("raster/fog.c", "make_table", "rest"),
         ("geometry/lights.c", "el_light_vertices", "rest"),
+        ("geometry/arrow.c", "el_arrow_measure", "rest"),
     ],
 )
 def test_functions_are_sorted_by_what_they_do(file: str, function: str, stage: str) -> None:

@@ -59,15 +59,14 @@ def factors(a: tuple[str, Any], b: tuple[str, Any]) -> Any:
 
 
 def down_domain(machine: Machine) -> list[Any]:
-    """el_product_down_11: |a b| < 2^42."""
+    """el_product_down_11: |a b| < 2^42, and 2^41 where b < 0."""
     path = machine.path
-    a, b = (
-        path.atom("a", 1 - 2**15, 2**15 - 1),
-        path.atom("b_high", 0, 2**15 - 1) * 2**16 + path.atom("b_low", 0, 65535),
-    )
+    a, b_high = path.atom("a", 1 - 2**15, 2**15 - 1), path.atom("b_high", -(2**15), 2**15 - 1)
+    b = b_high * 2**16 + path.atom("b_low", 0, 65535)
     path.decide(a, -a - 1)
-    path.assume(2**42 - 1 - a * b)
-    path.assume(2**42 + a * b)
+    most = 2**42 if path.decide(b_high, -b_high - 1) else 2**41
+    path.assume(most - 1 - a * b)
+    path.assume(most + a * b)
     return [machine.exactly("int32_t", a), machine.exactly("int32_t", b)]
 
 

@@ -259,7 +259,7 @@ static inline int64_t el_product_i32_u32(int32_t a, uint32_t b)
 #endif
 }
 
-/* floor(a * b / 2^11), which fits 32 bits. |a| < 2^15, 0 <= b. */
+/* floor(a * b / 2^11), which fits 32 bits, or 31 where b < 0. |a| < 2^15. */
 static inline int32_t el_product_down_11(int32_t a, int32_t b)
 {
 #if defined(EL_PRODUCTS_IN_HALVES)

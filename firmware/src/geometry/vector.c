@@ -35,6 +35,12 @@ int el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[])
     return size_bits;
 }
 
+int32_t el_vector_dot_high(const int32_t a[3], const int32_t b[3])
+{
+    return (int32_t)(el_product_i32(a[0], b[0]) >> 32) + (int32_t)(el_product_i32(a[1], b[1]) >> 32) +
+           (int32_t)(el_product_i32(a[2], b[2]) >> 32);
+}
+
 void el_vector_cross(const int32_t a_q30[3], const int32_t b_q30[3], int64_t product[3])
 {
     for (unsigned i = 0; i < 3; i++) {

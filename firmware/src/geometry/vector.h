@@ -29,6 +29,9 @@ static inline int64_t el_product_q58(int32_t a_q30, int32_t b_q30)
  * length. Any v but INT64_MIN. */
 int el_vector_normalise(const int64_t v[], unsigned count, int32_t unit_q30[]);
 
+/* a . b / 2^32, each product rounded down; |a| |b| < 2^62. */
+int32_t el_vector_dot_high(const int32_t a[3], const int32_t b[3]);
+
 /* A product of two vectors of length 1 that has fewer bits, and so is shorter than 2^-20, is rounding, not a direction. */
 enum { EL_DIRECTION_BITS = 41 };
 

@@ -102,6 +102,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/frame/quiet.c", "*", "sink"),
     ("firmware/src/geometry/aim.c", "*", REST),
     ("firmware/src/geometry/animation.c", "*", REST),
+    ("firmware/src/geometry/arrow.c", "*", REST),
     ("firmware/src/geometry/detail.c", "*", REST),
     ("firmware/src/geometry/elm*.c", "*", REST),
     ("firmware/src/geometry/hierarchy.c", "*", REST),
