@@ -16,6 +16,9 @@
 
 enum { BAND_LINES = 8, ARENA = 200 * 1024, LAMPS = 16 };
 
+/* A picture that has no power of two for its sides, and ends a little before S2's coordinates do, which are up to 256. */
+enum { ODD_WIDTH = 253, ODD_HEIGHT = 251 };
+
 /* What a use adds to its scene's material, or to the frame. */
 typedef enum extra {
     NOTHING,
@@ -32,6 +35,10 @@ typedef enum extra {
     IMAGE,
     MIRROR,
     SMOOTH,
+    ODD,
+    ODD_SMOOTH,
+    PALETTE_SMOOTH,
+    KEYED_SMOOTH,
     LIGHT,
     ONE_LAMP,
     ALL_LAMPS
@@ -81,6 +88,10 @@ static const use uses[] = {
     S2("S2-image", IMAGE),
     S2("S2-mirrored", MIRROR),
     S2("S2-bilinear", SMOOTH),
+    S2("S2-odd", ODD),
+    S2("S2-odd-bilinear", ODD_SMOOTH),
+    S2("S2-palette-bilinear", PALETTE_SMOOTH),
+    S2("S2-keyed-bilinear", KEYED_SMOOTH),
     {"S2-interlaced", "S2", "frame", &el_bench_scenes[0], &s2, EL_SHADE_TEXTURED, INTERLACED},
     S3("S3", NOTHING),
     S3("S3-blended", BLEND),
@@ -97,6 +108,9 @@ static _Alignas(8) uint8_t arena[ARENA];
 static el_camera camera;
 static el_texture texture;
 static el_image image;
+static uint16_t odd_texels[ODD_WIDTH * ODD_HEIGHT];
+static uint8_t indices[sizeof s2_texels / sizeof s2_texels[0]];
+static uint16_t palette[256];
 static el_fog fog;
 static el_lamp lamps[LAMPS];
 static uint8_t colours[sizeof teapot_positions / sizeof teapot_positions[0]][3];
@@ -133,6 +147,38 @@ static el_material material_of(const use *u)
     return material;
 }
 
+/* S2's picture, over and over, clamped where it ends. */
+static void make_odd(void)
+{
+    const uint32_t width_log2 = s2_texture.width_log2;
+    const uint32_t u_mask = (1U << width_log2) - 1U;
+    const uint32_t v_mask = (1U << s2_texture.height_log2) - 1U;
+    for (uint32_t y = 0; y < ODD_HEIGHT; y++) {
+        for (uint32_t x = 0; x < ODD_WIDTH; x++) {
+            odd_texels[y * ODD_WIDTH + x] = s2_texels[(y & v_mask) << width_log2 | (x & u_mask)];
+        }
+    }
+    image.width = ODD_WIDTH;
+    image.height = ODD_HEIGHT;
+    image.pixels = odd_texels;
+    texture.image = &image;
+    texture.wrap_u = EL_WRAP_CLAMP;
+    texture.wrap_v = EL_WRAP_CLAMP;
+}
+
+/* S2's picture in 256 colours. */
+static void make_palette(void)
+{
+    for (uint32_t i = 0; i < sizeof indices; i++) {
+        indices[i] = (uint8_t)(s2_texels[i] >> 8);
+        palette[indices[i]] = s2_texels[i];
+    }
+    image.format = EL_IMAGE_INDEX8;
+    image.pixels = indices;
+    image.palette = palette;
+    texture.image = &image;
+}
+
 /* What is there before the frame begins. */
 static void prepare(const use *u)
 {
@@ -146,7 +192,16 @@ static void prepare(const use *u)
     texture.image = u->what == IMAGE ? &image : NULL;
     texture.wrap_u = u->what == MIRROR ? EL_WRAP_MIRROR : EL_WRAP_REPEAT;
     texture.wrap_v = texture.wrap_u;
-    texture.smooth = u->what == SMOOTH;
+    texture.smooth = u->what == SMOOTH || u->what == ODD_SMOOTH || u->what == PALETTE_SMOOTH || u->what == KEYED_SMOOTH;
+    if (u->what == ODD || u->what == ODD_SMOOTH) {
+        make_odd();
+    } else if (u->what == PALETTE_SMOOTH) {
+        make_palette();
+    } else if (u->what == KEYED_SMOOTH) {
+        image.has_key = true;
+        image.key = s2_texels[0];
+        texture.image = &image;
+    }
     for (int32_t i = 0; i < LAMPS; i++) {
         lamps[i] =
             (el_lamp){.kind = EL_LAMP_POINT,

@@ -199,7 +199,8 @@ if [ -f "$unity/unity.c" ]; then
     (cd "$looks/objects" && printf '%s\0' "$looks"/src/{base,geometry,raster}/*.c |
         xargs -0 -P 2 -n 8 cc -std=c11 -O1 -I "$looks/src" -c && ar rc "$looks/sound.a" ./*.o)
 fi
-lights=geometry/lights.c fog=raster/fog.c mixed=raster/fill_mixed_line.c texels=raster/texel_line.c
+lights=geometry/lights.c fog=raster/fog.c mixed=raster/fill_mixed_line.c
+texels=raster/texel_line.c strips=raster/texel_strip.c smooth=raster/texel_smooth.c
 look test_lights "spots have a sharp border" $lights "(3U << 15) - t_q16" "(1U << 15)"
 look test_lights "a lamp behind the surface lights it" $lights "if (along <= 0)" "if (along == 0)"
 look test_lights "a direction behind the surface lights it" $lights "if (cosine_q28 <= 0)" "if (cosine_q28 == 0)"
@@ -215,9 +216,15 @@ look test_fog "e^-x of too few terms" $fog "TERMS = 8" "TERMS = 2"
 look test_fog "fog begins at the eye" $fog "begin_q16 > view->near_q16 ? begin_q16" "begin_q16 > view->far_q16 ? begin_q16"
 look test_sampler "mirrors repeat" raster/sampler.c ": axis->period - 1U - in_period" ": in_period - axis->size"
 look test_sampler "coordinates below 0 are off by one" raster/sampler.c "(FARTHEST + period - 1U) / period * period" "FARTHEST"
-look test_sampler "rows mirror by one too few" $texels "axis->period - 1U - place" "(axis->period - 2U - place) % axis->size"
+look test_sampler "rows of mirrored pictures repeat" $strips "is_turned ? last : 0U, is_turned ? 0U - 1U : 1U" "0U, 1U"
+look test_sampler "what is clamped begins a texel late" $strips "strip_from(0, length, 0, 1)" "strip_from(0, length + 1U, 0, 1)"
+look test_sampler "the last texel's neighbour is itself" $strips "axis->period == axis->size" "axis->size == 0"
+look test_sampler "what is clamped begins a texel early" $strips "has_neighbours ? last :" "has_neighbours ? last - (last > 1U) :"
+look test_sampler "only u leaves a strip" raster/texel_row.h "row->v_q16 += count * row->v_step_q16" "row->v_q16 += 0" $texels $smooth
 look test_sampler "the right half byte is the left one" $texels "((~i & 1U) << 2)" "((i & 1U) << 2)"
-look test_sampler "the lower two texels are the upper" $texels "(y + width) & from.v_mask" "y & from.v_mask"
+look test_sampler "the lower two texels are the upper" $smooth "(upper + to_lower) & v_mask" "upper & v_mask"
+look test_sampler "the lower two in lines are the upper" $texels "(i >> 1) * (line" "(i >> 2) * (line"
+look test_sampler "the mean of four is rounded down" base/rgb565.h "down) + 0x00800080U" "down)" base/image.c $smooth
 look test_sampler "alpha of a palette is forgotten" $texels "if (line->has_alpha_apart)" "if (false)"
 look test_mixed "what is blended hides" $mixed "b->writes_depth && b->way <= EL_MIXED_BLENDED" "b->way <= EL_MIXED_BLENDED"
 look test_mixed "half a texel is none" $mixed "is_tested ? 128U : 1U" "is_tested ? 257U : 1U"

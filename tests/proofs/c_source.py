@@ -56,6 +56,8 @@ MIXED = [
     "raster/fill_mixed.c",
     "raster/fill_mixed_line.c",
     "raster/texel_line.c",
+    "raster/texel_smooth.c",
+    "raster/texel_strip.c",
     "raster/sampler.c",
     "raster/texture.c",
     "base/image.c",

@@ -185,10 +185,111 @@ static void test_texels_of_every_kind(void)
 }
 
 #if !EL_SMALL_CODE
-/* Rows of texels, found in the way of their texture, are those of the sampler. */
+enum { TEXEL = 1 << 16, ROWS = 6 };
+
+/* Anywhere; or on a border of a picture, one of which is where it lies, or between two texels, or next to that. */
+static uint32_t any_place(seeded *s, uint32_t side)
+{
+    if (any_below(s, 3) == 0) {
+        return (uint32_t)any_signed_of_bits(s, 26);
+    }
+    const uint32_t border = (uint32_t)any_between(s, -3, 3) * side * TEXEL;
+    return border + any_below(s, 3) * (TEXEL / 2) - TEXEL / 2 + (uint32_t)any_between(s, -1, 1);
+}
+
+static uint32_t any_step(seeded *s)
+{
+    static const unsigned bits[] = {12, 17, 20, 32};
+    return any_below(s, 3) == 0 ? (uint32_t)any_between(s, -2, 2) * (TEXEL / 2)
+                                : (uint32_t)any_signed_of_bits(s, bits[any_below(s, 16) == 0 ? 3 : any_below(s, 3)]);
+}
+
+/* A row that begins or ends somewhere. A step that leads out of all coordinates is not one of those that there are: such rows
+ * have one pixel. */
+static el_texel_row any_row(seeded *s, uint16_t *colour)
+{
+    el_texel_row row = {.u_q16 = any_place(s, p.image.width),
+                        .v_q16 = any_place(s, p.image.height),
+                        .u_step_q16 = any_step(s),
+                        .v_step_q16 = any_step(s),
+                        .colour = colour,
+                        .count = (uint32_t)any_between(s, 1, EL_MAX_PIECE)};
+    if (row.u_step_q16 + (1U << 20) > 2U << 20 || row.v_step_q16 + (1U << 20) > 2U << 20) {
+        row.count = 1;
+    }
+    if (any_below(s, 2) == 0) {
+        row.u_q16 -= (row.count - 1) * row.u_step_q16;
+        row.v_q16 -= (row.count - 1) * row.v_step_q16;
+    }
+    return row;
+}
+
+static void check_row(const seeded *s, el_texel_line *line, const el_texel_row *row)
+{
+    const el_sampler *const sampler = line->sampler;
+    uint16_t shown[EL_MAX_PIECE] = {0};
+    el_texel_line_draw(line, row, shown);
+    for (uint32_t i = 0; i < row->count; i++) {
+        uint16_t expected = 0;
+        const uint32_t parts =
+            el_sampler_at(sampler, row->u_q16 + i * row->u_step_q16, row->v_q16 + i * row->v_step_q16, &expected);
+        const uint32_t found = sampler->is_open ? shown[i] : 256U;
+        if (found != parts || (parts != 0 && row->colour[i] != expected)) {
+            fail_at(s, "texel %lu by way %d is %04x, %lu shown, not %04x, %lu", (unsigned long)i, (int)line->way,
+                    row->colour[i], (unsigned long)found, expected, (unsigned long)parts);
+        }
+    }
+}
+
+/* Whatever its coordinates, a row has texels of the picture alone, which are of one colour; around them is another. */
+static void test_rows_stay_within_the_picture(void)
+{
+    enum { INSIDE = 0x1234, OUTSIDE = 0xFFFF };
+    static uint16_t memory[3 * TEXELS];
+    for (seeded s = seeded_from(905); s.round < PART_OF(20000U); s.round++) {
+        p.image = (el_image){.width = any_side(&s),
+                             .height = any_side(&s),
+                             .has_key = any_below(&s, 2) == 0,
+                             .key = OUTSIDE,
+                             .pixels = &memory[TEXELS]};
+        for (uint32_t i = 0; i < 3 * TEXELS; i++) {
+            const bool is_inside = i >= TEXELS && i < TEXELS + (uint32_t)p.image.width * p.image.height;
+            memory[i] = is_inside ? INSIDE : OUTSIDE;
+        }
+        const el_texture texture = {.image = &p.image,
+                                    .wrap_u = (uint8_t)any_below(&s, 3),
+                                    .wrap_v = (uint8_t)any_below(&s, 3),
+                                    .smooth = any_below(&s, 2) == 0};
+        el_sampler sampler;
+        el_sampler_make(&sampler, &texture);
+        el_texel_line line;
+        el_texel_line_make(&line, &sampler);
+        for (unsigned i = 0; i < ROWS; i++) {
+            uint16_t colour[EL_MAX_PIECE];
+            uint16_t shown[EL_MAX_PIECE] = {0};
+            el_texel_row row = any_row(&s, colour);
+            if (any_below(&s, 2) == 0) {
+                row.u_q16 = (uint32_t)any_u64(&s);
+                row.v_q16 = (uint32_t)any_u64(&s);
+                row.u_step_q16 = (uint32_t)any_u64(&s);
+                row.v_step_q16 = (uint32_t)any_u64(&s);
+                row.count = EL_MAX_PIECE;
+            }
+            el_texel_line_draw(&line, &row, shown);
+            for (uint32_t j = 0; j < row.count; j++) {
+                if ((sampler.is_open && shown[j] != 256) || colour[j] != INSIDE) {
+                    fail_at(&s, "texel %lu by way %d is %04x", (unsigned long)j, (int)line.way, colour[j]);
+                }
+            }
+        }
+    }
+}
+
+/* Rows of texels, found in the way of their texture, are those of the sampler: several in turn, as the next one begins where
+ * the last one has been. */
 static void test_rows_are_as_one_at_a_time(void)
 {
-    uint32_t times[EL_TEXELS_ANY + 1] = {0};
+    uint32_t times[EL_TEXELS_REPEATED + 1] = {0};
     for (seeded s = seeded_from(904); s.round < PART_OF(20000U); s.round++) {
         any_picture(&s);
         if (any_below(&s, 2) == 0) { /* for which there are ways that others have not */
@@ -203,28 +304,14 @@ static void test_rows_are_as_one_at_a_time(void)
         el_sampler_make(&sampler, &texture);
         el_texel_line line;
         el_texel_line_make(&line, &sampler);
-        uint16_t colour[EL_MAX_PIECE];
-        uint16_t shown[EL_MAX_PIECE];
-        const el_texel_row row = {.u_q16 = (uint32_t)any_signed_of_bits(&s, 26),
-                                  .v_q16 = (uint32_t)any_signed_of_bits(&s, 26),
-                                  .u_step_q16 = (uint32_t)any_signed_of_bits(&s, 20),
-                                  .v_step_q16 = (uint32_t)any_signed_of_bits(&s, 20),
-                                  .colour = colour,
-                                  .count = (uint32_t)any_between(&s, 1, EL_MAX_PIECE)};
-        el_texel_line_draw(&line, &row, shown);
-        times[line.way]++;
-        for (uint32_t i = 0; i < row.count; i++) {
-            uint16_t expected = 0;
-            const uint32_t parts =
-                el_sampler_at(&sampler, row.u_q16 + i * row.u_step_q16, row.v_q16 + i * row.v_step_q16, &expected);
-            const uint32_t found = sampler.is_open ? shown[i] : 256U;
-            if (found != parts || (parts != 0 && colour[i] != expected)) {
-                fail_at(&s, "texel %lu by way %d is %04x, %lu shown, not %04x, %lu", (unsigned long)i, (int)line.way,
-                        colour[i], (unsigned long)found, expected, (unsigned long)parts);
-            }
+        times[line.way < EL_TEXELS_REPEATED ? line.way : EL_TEXELS_REPEATED]++;
+        for (unsigned i = 0; i < ROWS; i++) {
+            uint16_t colour[EL_MAX_PIECE];
+            const el_texel_row row = any_row(&s, colour);
+            check_row(&s, &line, &row);
         }
     }
-    for (unsigned i = 0; i <= EL_TEXELS_ANY; i++) {
+    for (unsigned i = 0; i <= EL_TEXELS_REPEATED; i++) {
         TEST_ASSERT_GREATER_THAN_UINT32(PART_OF(100U), times[i]);
     }
 }
@@ -322,6 +409,7 @@ int main(void)
     RUN_TEST(test_nothing_leads_out_of_the_texture);
     RUN_TEST(test_texels_of_every_kind);
 #if !EL_SMALL_CODE
+    RUN_TEST(test_rows_stay_within_the_picture);
     RUN_TEST(test_rows_are_as_one_at_a_time);
 #endif
 #endif

@@ -68,15 +68,23 @@ static inline uint32_t el_image_at(const el_image *image, el_image_format format
     return image->alpha == NULL ? shown : shown * el_alpha_256(image->alpha[y * image->width + x]) >> 8;
 }
 
-/* Where a smooth pixel is looked up: the four whose centres lie around it, and how far it is from the first of them, in
- * sixteenths of their distance. */
+/* Four pixels whose centres lie around a place: the upper two, the lower two, each from the left. */
+typedef struct el_image_four {
+    uint16_t colour[4];
+    uint32_t shown[4]; /* 0..256; of 0 the colour is any */
+} el_image_four;
+
+/* Their mean by distance and by what they show, each channel rounded to nearest, at so many sixteenths of their distance to
+ * the right of the left ones and below the upper ones, 0 to 15; and how much shows, 0..256. Where that is 0 there is no
+ * colour. */
+uint32_t el_image_mean(const el_image_four *four, uint32_t right, uint32_t down, uint16_t *colour);
+
+/* Where a smooth pixel is looked up: the columns and rows of those four, and how far it is from the first of them. */
 typedef struct el_image_spot {
     uint32_t x[2], y[2];  /* beyond the image there is nothing */
-    uint32_t right, down; /* 0 to 15 */
+    uint32_t right, down; /* as above */
 } el_image_spot;
 
-/* Their mean by distance and by what they show, each channel rounded to nearest; and how much shows, 0..256. Where that is 0
- * there is no colour. */
 uint32_t el_image_smooth_at(const el_image *image, const el_image_spot *spot, uint16_t *colour);
 
 #ifdef __cplusplus

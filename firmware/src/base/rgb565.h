@@ -28,6 +28,28 @@ static inline uint32_t el_alpha_256(uint8_t alpha)
     return alpha + (alpha >> 7);
 }
 
+/* Sixteen times the colour between two that are spread, so many sixteenths of the way: below 2^9, 2^9 and 2^10 from bits 0, 11
+ * and 21 on; modulo 2^32 in between. */
+static inline uint32_t el_rgb565_between(uint32_t from, uint32_t to, uint32_t sixteenths)
+{
+    return (from << 4) + (to - from) * sixteenths;
+}
+
+/* The mean of four pixels, the upper two and the lower two, each from the left, at so many sixteenths of their distance to the
+ * right of the left ones and below the upper ones, 0 to 15; each channel is rounded to nearest. 256 times the mean is a sum of
+ * products by parts of 256, whichever way they are added up. */
+static inline uint16_t el_rgb565_mean(const uint16_t four[4], uint32_t right, uint32_t down)
+{
+    const uint32_t above = el_rgb565_between(el_rgb565_spread(four[0]), el_rgb565_spread(four[1]), right);
+    const uint32_t below = el_rgb565_between(el_rgb565_spread(four[2]), el_rgb565_spread(four[3]), right);
+    /* Red from bit 16 on: sums below 2^13, 2^13 and 2^14. */
+    const uint32_t rb_above = (above & 0x1FFU) | (above & 0xFF800U) << 5;
+    const uint32_t rb_below = (below & 0x1FFU) | (below & 0xFF800U) << 5;
+    const uint32_t rb = el_rgb565_between(rb_above, rb_below, down) + 0x00800080U;
+    const uint32_t g = el_rgb565_between(above >> 21, below >> 21, down) + 0x80U;
+    return (uint16_t)((rb >> 24 << 11) | (g >> 3 & 0x07E0U) | (rb >> 8 & 0x1FU));
+}
+
 /* `over` over `under`, of which it hides alpha / 256, 0..256: each channel is rounded to nearest, ties up, so that 0 leaves
  * `under` as it is and 256 is `over`. The sums of red and blue lie 16 bits apart, below 31 * 256 + 128 each. */
 static inline uint16_t el_rgb565_blend(uint16_t under, uint16_t over, uint32_t alpha)

@@ -289,7 +289,7 @@ static inline uint32_t piece_from(el_texture_walk *walk, uint32_t x, uint32_t at
     return 1;
 }
 
-static inline void draw_texels(const el_mixed_brush *b, uint16_t *colour, uint16_t *shown, uint32_t count)
+static inline void draw_texels(el_mixed_brush *b, uint16_t *colour, uint16_t *shown, uint32_t count)
 {
     const el_texel_row row = {.u_q16 = (uint32_t)b->walk.u.q16,
                               .v_q16 = (uint32_t)b->walk.v.q16,

@@ -44,13 +44,18 @@ void el_sampler_make(el_sampler *sampler, const el_texture *texture)
     make_axis(&sampler->v, sampler->image.height, wrap_v);
 }
 
+uint32_t el_sampler_in_period(const el_sampler_axis *axis, int32_t at)
+{
+    const uint32_t n = ((uint32_t)at + axis->bias) & ((1U << NUMBER_BITS) - 1U);
+    return n - (n * axis->reciprocal >> axis->shift) * axis->period; /* 2^13 * 2^14 */
+}
+
 uint32_t el_sampler_place(const el_sampler_axis *axis, int32_t at)
 {
     if (axis->period == 0) {
         return (uint32_t)el_max_i32(el_min_i32(at, (int32_t)axis->size - 1), 0);
     }
-    const uint32_t n = ((uint32_t)at + axis->bias) & ((1U << NUMBER_BITS) - 1U);
-    const uint32_t in_period = n - (n * axis->reciprocal >> axis->shift) * axis->period; /* 2^13 * 2^14 */
+    const uint32_t in_period = el_sampler_in_period(axis, at);
     return in_period < axis->size ? in_period : axis->period - 1U - in_period;
 }
 

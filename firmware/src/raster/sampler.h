@@ -28,6 +28,9 @@ typedef struct el_sampler {
 
 void el_sampler_make(el_sampler *sampler, const el_texture *texture);
 
+/* Which of the period's texels, below axis->period, is whole texel `at`. Pre: it has one. */
+uint32_t el_sampler_in_period(const el_sampler_axis *axis, int32_t at);
+
 /* The texture's column or row for whole texel `at`, of which -2056 to 2056 are those that there are; any other leads to some
  * texel. */
 uint32_t el_sampler_place(const el_sampler_axis *axis, int32_t at);

@@ -56,6 +56,26 @@ typedef struct el_texel_row {
     uint32_t count;
 } el_texel_row;
 
+/* Moves its beginning on by so many of its pixels. */
+static inline void el_texel_row_skip(el_texel_row *row, uint32_t count)
+{
+    row->u_q16 += count * row->u_step_q16;
+    row->v_q16 += count * row->v_step_q16;
+    row->colour += count;
+    row->count -= count;
+}
+
+/* The same, counted from the centres of texels. */
+static inline el_texel_row el_texel_row_between_centres(const el_texel_row *row)
+{
+    return (el_texel_row){.u_q16 = row->u_q16 - (1U << 15),
+                          .v_q16 = row->v_q16 - (1U << 15),
+                          .u_step_q16 = row->u_step_q16,
+                          .v_step_q16 = row->v_step_q16,
+                          .colour = row->colour,
+                          .count = row->count};
+}
+
 static inline bool el_can_pack(const el_texels *texels, uint32_t v_step_q16)
 {
     return v_step_q16 + texels->packing.v_step_most < 2U * texels->packing.v_step_most;

@@ -83,7 +83,7 @@ RULES: tuple[tuple[str, str, str | None], ...] = (
     ("firmware/src/raster/fill_mixed.c", "el_*", "rows"),
     ("firmware/src/raster/stripes.c", "*", "pixels"),
     ("firmware/src/raster/fill*.c", "*", "pixels"),
-    ("firmware/src/raster/texel_line.c", "*", "pixels"),
+    ("firmware/src/raster/texel_*.c", "*", "pixels"),
     ("firmware/src/raster/sampler.c", "*make*", "set-up"),
     ("firmware/src/raster/sampler.c", "*", "pixels"),
     ("firmware/src/raster/texture.c", "el_mip_level", "set-up"),
