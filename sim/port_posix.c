@@ -38,10 +38,18 @@ static uint64_t now_ns(void)
     return (uint64_t)now.tv_sec * NS_PER_S + (uint64_t)now.tv_nsec;
 }
 
+/* Whoever reads a pipe may take any time to begin, or to go on, and nothing is lost on it: so the clock, by which a session
+ * gives up, stands still meanwhile. */
+static bool stands_still(const el_posix_port *port)
+{
+    return port->full_since_ns != 0 && (port->stopped == NULL || *port->stopped == 0);
+}
+
 static uint32_t port_micros(void *context)
 {
     const el_posix_port *port = context;
-    return (uint32_t)((now_ns() - port->waited_ns) / 1000U);
+    const uint64_t until_ns = stands_still(port) ? port->full_since_ns : now_ns();
+    return (uint32_t)((until_ns - port->waited_ns) / 1000U);
 }
 
 /* --- The other end comes and goes ------------------------------------------------------------------------------ */
@@ -123,15 +131,16 @@ static bool port_set_baud(void *context, uint32_t rate)
     return idle;
 }
 
-/* Whoever reads a pipe may take any time to begin, or to go on, and nothing is lost on it: so the session's clock, by which
- * it gives up, stands still meanwhile. False for a signal that was to end it. */
-static bool wait_for_reader(el_posix_port *port)
+static bool has_room(el_posix_port *port)
 {
     struct pollfd writable = {.fd = port->out, .events = POLLOUT};
-    const uint64_t begin_ns = now_ns();
-    const bool good = poll(&writable, 1, -1) > 0;
-    port->waited_ns += now_ns() - begin_ns;
-    return good;
+    if (poll(&writable, 1, 0) <= 0) {
+        port->full_since_ns = port->full_since_ns != 0 ? port->full_since_ns : now_ns();
+        return false;
+    }
+    port->waited_ns += stands_still(port) ? now_ns() - port->full_since_ns : 0;
+    port->full_since_ns = 0;
+    return true;
 }
 
 static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
@@ -156,8 +165,8 @@ static int32_t port_write(void *context, const uint8_t *bytes, size_t count)
      * writable takes PIPE_BUF bytes without blocking. */
     if (port->out == STDOUT_FILENO) {
         count = count < PIPE_BUF ? count : PIPE_BUF;
-        if (!wait_for_reader(port)) {
-            return -1;
+        if (!has_room(port)) {
+            return 0;
         }
     }
     ssize_t took = write(port->out, bytes, count);

@@ -8,6 +8,7 @@
 #ifndef EL_SIM_PORT_POSIX_H
 #define EL_SIM_PORT_POSIX_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -26,7 +27,10 @@ typedef struct el_posix_port {
     uint32_t baud;
     uint64_t sent_ns; /* when the last bit of what was taken has left */
 
-    uint64_t waited_ns; /* standard output: how long its reader has been waited for */
+    /* Standard output: since when it is full, or 0, and how long its reader has been waited for before. */
+    uint64_t full_since_ns;
+    uint64_t waited_ns;
+    const volatile sig_atomic_t *stopped; /* not 0: whoever waits shall give up; NULL: nothing says so */
 } el_posix_port;
 
 /* Opens a pseudo-terminal and prints the path of the host's end as a line on stdout. */
@@ -36,8 +40,8 @@ bool el_posix_port_open_pty(el_posix_port *port);
  * client at a time; another one waits until the first has gone. */
 bool el_posix_port_open_tcp(el_posix_port *port, uint16_t tcp_port);
 
-/* Writes to standard output and reads nothing: for a stream with `one_way`. Nothing else may print there. Its reader is
- * waited for, however long it takes, on a clock that stands still meanwhile; a signal ends that, and the link is gone. */
+/* Writes to standard output and reads nothing: for a stream with `one_way`. Nothing else may print there. Its reader may
+ * take any time: the clock stands still while the pipe is full, unless `stopped` says that nobody is to wait any more. */
 bool el_posix_port_open_stdout(el_posix_port *port);
 
 /* The link as the stream sees it; it has rates if `baud` is not 0 now. `wait` returns when there is something to read

@@ -218,6 +218,7 @@ int el_command_stream(int argc, char **argv)
         const struct sigaction action = {.sa_handler = stop};
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
+        port.stopped = &stopped;
         good = run(&o, &subject, &port);
         el_posix_port_close(&port);
     } else {

@@ -252,10 +252,12 @@ static void test_tcp_busy_port_is_one_clear_line(void)
 
 /* --- Standard output ------------------------------------------------------------------------------------------- */
 
-/* A full pipe does not block the device; a closed one is a link that is gone, not a signal. */
+/* A full pipe does not block the device, and its clock stands still; a closed one is a link that is gone, not a signal. */
 static void test_stdout_through_a_pipe(void)
 {
     int ends[2];
+    uint8_t bytes[1000]; /* no part of a pipe's bytes: the last piece is shorter */
+    const sig_atomic_t stopped = 1;
     fflush(stdout);
     int terminal = dup(STDOUT_FILENO);
     TEST_ASSERT_EQUAL_INT(0, pipe(ends));
@@ -267,12 +269,30 @@ static void test_stdout_through_a_pipe(void)
     device_sends(all_values, sizeof all_values);
     host_receives(ends[0], all_values, sizeof all_values);
     fill();
+    const uint32_t full_us = now_us();
+    usleep(10000);
+    const uint32_t waiting_us = now_us();
+    port.stopped = &stopped;
+    usleep(10000);
+    const uint32_t stopped_us = now_us();
+    port.stopped = NULL;
+    while (read(ends[0], bytes, sizeof bytes) == (ssize_t)sizeof bytes) {
+    }
+    const bool takes = link_of_port.write(link_of_port.context, all_values, 1) == 1;
+    const uint32_t read_us = now_us();
+    usleep(10000);
+    const uint32_t later_us = now_us();
     close(ends[0]);
     int32_t took = link_of_port.write(link_of_port.context, all_values, 1);
 
     dup2(terminal, STDOUT_FILENO);
     close(terminal);
     TEST_ASSERT_TRUE(opened);
+    TEST_ASSERT_EQUAL_UINT32(full_us, waiting_us);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT32(20000, stopped_us - full_us);
+    TEST_ASSERT_TRUE(takes);
+    TEST_ASSERT_LESS_THAN_UINT32(20000, read_us - full_us);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT32(10000, later_us - read_us);
     TEST_ASSERT_EQUAL_INT32(-1, took);
 }
 
