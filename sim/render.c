@@ -269,6 +269,15 @@ static bool render_frames(const render_options *o, const el_subject *subject, el
     return true;
 }
 
+/* Frames that nobody keeps are drawn for their time, or by who does not know yet what to ask for. */
+static void say_what_could_be_kept(const render_options *o)
+{
+    if (o->png == NULL && o->raw == NULL && o->depth == NULL && o->wire == NULL && !o->crc && !o->stats) {
+        el_report("render: %ld frame%s drawn and not kept; --png FILE keeps the last one, --help tells of others",
+                  o->common.frames, o->common.frames == 1 ? "" : "s");
+    }
+}
+
 static bool commit(el_output *output)
 {
     return output->stream == NULL || el_output_commit(output);
@@ -297,6 +306,7 @@ int el_command_render(int argc, char **argv)
     }
     if (good) {
         good = commit(&out.png) && commit(&out.raw) && commit(&out.depth) && commit(&out.wire);
+        say_what_could_be_kept(&o);
     }
     el_output_discard(&out.png);
     el_output_discard(&out.raw);

@@ -265,3 +265,11 @@ def test_bad_streams(fails: Fails) -> None:
     fails("stream", "--scene", "no-such-scene", "--stdout")
     fails("stream", "--tcp", "99999")
     fails("stream", "--tcp", "port")
+
+
+def test_frames_that_nobody_keeps_are_told_of(simulator: Simulator, tmp_path: Path) -> None:
+    done = simulator.run("render", "--scene", "solid", "--frames", "2")
+    told = "edgeline-sim: render: 2 frames drawn and not kept; --png FILE keeps the last one, --help tells of others\n"
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", told)
+    for kept in (["--crc"], ["--stats"], ["--png", str(tmp_path / "p.png")]):
+        assert simulator.run("render", "--scene", "solid", *kept).stderr == ""

@@ -111,7 +111,7 @@ def test_texture_coordinates_out_of_range_name_the_vertex() -> None:
 
 def test_missing_texture_coordinates_name_the_face() -> None:
     text = QUAD + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 3\n"
-    with pytest.raises(EdgelineError, match=r"^model.obj:7: a corner without a texture coordinate .* --no-texture$"):
+    with pytest.raises(EdgelineError, match=r"^model.obj:7: a corner without texture coordinates .* --no-texture$"):
         soup_from(parse(text), {}, Texture(np.zeros((8, 8), np.uint16)))
 
 

@@ -231,7 +231,7 @@ BAD = {
     "glb: no uvs": (
         "m.glb",
         edited(lambda c: None, attributes="p"),
-        "m.glb: meshes[0] primitive 0 triangle 0: a corner without a texture coordinate",
+        "m.glb: meshes[0] primitive 0 triangle 0: a corner without texture coordinates",
     ),
 }
 

@@ -148,7 +148,9 @@ def texel_coordinates(source: Source, texture: Texture) -> Floats:
     uvs = np.full(shape, np.nan) if source.uvs is None else source.uvs
     missing = np.any(np.isnan(uvs), axis=(1, 2))
     if missing.any():
-        text = "a corner without a texture coordinate (v/vt); unwrap the model, or give --no-texture"
+        text = (
+            "a corner without texture coordinates (vt in OBJ, TEXCOORD in glTF); unwrap the model, or give --no-texture"
+        )
         raise EdgelineError(f"{source.where(int(np.argmax(missing)))}: {text}")
     height, width = texture.texels.shape
     sides = np.array([width, height], dtype=np.float64)
