@@ -85,6 +85,7 @@ typedef struct el_image_spot {
     uint32_t right, down; /* as above */
 } el_image_spot;
 
+/* The mean of those four of the image, as el_image_mean has it; how much shows, 0..256. */
 uint32_t el_image_smooth_at(const el_image *image, const el_image_spot *spot, uint16_t *colour);
 
 #ifdef __cplusplus

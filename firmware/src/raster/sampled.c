@@ -9,10 +9,17 @@
 #include "base/fixed.h"
 #include "raster/fill_mixed.h"
 #include "raster/fill_row.h"
+#include "raster/fill_texture_row.h"
 #include "raster/sampled_pixel.h"
 #include "raster/small_sampled.h"
 
 #if EL_WITH_SAMPLES
+
+/* Textures alone are drawn as without samples; other ways with a texture, and all in small code, by rows of any shading. */
+static inline bool is_textured(unsigned kind)
+{
+    return !EL_SMALL_CODE && (kind | EL_FILL_DEPTH) == (EL_FILL_TEXTURE | EL_FILL_DEPTH);
+}
 
 /* A sample's edges, from its next row on. */
 typedef struct sample_edges {
@@ -33,6 +40,9 @@ typedef struct sampled {
     uint64_t wuv_at[EL_MAX_SAMPLES + 1][3];
     union {
         el_row_brush brush;
+#if !EL_SMALL_CODE
+        el_texture_brush texture_brush; /* of what is_textured; without its slopes */
+#endif
 #if EL_WITH_MIXED
         el_mixed_brush mixed_brush; /* of EL_FILL_MIXED */
 #endif
@@ -223,6 +233,14 @@ static EL_APART uint32_t draw_colour(sampled *s, const el_sampled_place *at, uin
 static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x,
                                          unsigned k, unsigned kind)
 {
+#if !EL_SMALL_CODE
+    if (is_textured(kind)) {
+        el_texture_brush *const brush = &s->texture_brush;
+        el_texture_walk_point(&brush->walk, &s->triangle.perspective, x, s->wuv_at[k]);
+        el_texture_walk_last(&brush->walk);
+        return el_texel_at(&brush->texels.source, (uint32_t)brush->walk.u.q16, (uint32_t)brush->walk.v.q16);
+    }
+#endif
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         return draw_colour(s, at, x, k);
     }
@@ -381,6 +399,14 @@ static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, co
         el_mixed_draw_row(&s->mixed_brush, &s->triangle, x, x_end, at->colour, at->depth);
     } else
 #endif
+#if !EL_SMALL_CODE
+        if (is_textured(kind) && (kind & EL_FILL_DEPTH) != 0) {
+        el_texture_draw_tested(&s->texture_brush, &s->triangle.perspective, slopes, at->colour, at->depth, x, x_end,
+                               kind);
+    } else if (is_textured(kind)) {
+        el_texture_draw_all(&s->texture_brush, &s->triangle.perspective, at->colour, x, x_end, kind);
+    } else
+#endif
         if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         const el_cursor cursor = {
             .row = (kind & EL_FILL_DEPTH) != 0 ? at->depth : at->colour,
@@ -454,6 +480,25 @@ static EL_APART void draw_other(sampled *s, int32_t y, int32_t y_end, el_stats *
     draw_rows(s, y, y_end, stats, s->triangle.kind);
 }
 
+/* Of the planes, what draws them. */
+static inline void begin_brush(sampled *s)
+{
+#if EL_WITH_MIXED
+    if ((s->triangle.kind & EL_FILL_MIXED) != 0) {
+        el_mixed_brush_begin(&s->mixed_brush, &s->triangle);
+        return;
+    }
+#endif
+#if !EL_SMALL_CODE
+    if (is_textured(s->triangle.kind)) {
+        s->texture_brush.texels = el_texels_of(s->triangle.surface.texture);
+        el_texture_walk_start(&s->texture_brush.walk, &s->triangle);
+        return;
+    }
+#endif
+    el_row_brush_begin(&s->brush, &s->triangle);
+}
+
 /* The way of all but small triangles in few colours. */
 static EL_APART void draw_any(const el_corner *const sorted[3], int64_t area, const el_surface *surface,
                               const el_sampled_target *target, int32_t y, int32_t y_end, int32_t y_last,
@@ -469,15 +514,7 @@ static EL_APART void draw_any(const el_corner *const sorted[3], int64_t area, co
     for (unsigned k = 0; k < target->count; k++) {
         make_edges(&s.edges[k], sorted, &s.points[k], y, s.short_is_left);
     }
-#if EL_WITH_MIXED
-    if ((s.triangle.kind & EL_FILL_MIXED) != 0) {
-        el_mixed_brush_begin(&s.mixed_brush, &s.triangle);
-    } else {
-        el_row_brush_begin(&s.brush, &s.triangle);
-    }
-#else
-    el_row_brush_begin(&s.brush, &s.triangle);
-#endif
+    begin_brush(&s);
     if (s.triangle.kind == (EL_FILL_COLOURS | EL_FILL_DEPTH)) {
         draw_coloured(&s, y, y_end, stats);
     } else if (s.triangle.kind == EL_FILL_DEPTH) {

@@ -295,6 +295,17 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
     find_first_length(walk);
 }
 
+#if !EL_SMALL_CODE && EL_WITH_SAMPLES
+void el_texture_walk_point(el_texture_walk *walk, const el_perspective *planes, uint32_t x, const uint64_t wuv[3])
+{
+    find_of_w(walk, plane_at(&planes->w, x) + wuv[0] + EL_W_MARGIN_Q32);
+    walk->u.value = plane_at(&planes->u, x) + wuv[1];
+    walk->v.value = plane_at(&planes->v, x) + wuv[2];
+    find_first_knot(&walk->u, walk->w_shift, walk->reciprocal);
+    find_first_knot(&walk->v, walk->w_shift, walk->reciprocal);
+}
+#endif
+
 /* 2^32 / length, rounded up, modulo 2^32: of a piece of one pixel no step is needed. */
 #if EL_SMALL_CODE
 static uint32_t reciprocal_of(uint32_t length)

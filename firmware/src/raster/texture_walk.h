@@ -59,6 +59,11 @@ void el_texture_walk_start(el_texture_walk *walk, const el_triangle *triangle);
  * below 2^16. */
 void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, uint32_t x, uint32_t pixels);
 
+#if !EL_SMALL_CODE && EL_WITH_SAMPLES
+/* A span of one pixel, off whose centre by `wuv`: what 1/w, u/w and v/w are more there, Q32. el_texture_walk_last has it. */
+void el_texture_walk_point(el_texture_walk *walk, const el_perspective *planes, uint32_t x, const uint64_t wuv[3]);
+#endif
+
 /* Makes the piece that begins `at` pixels after the span's first, and has `most` pixels at most, 1 or more: those before
  * the span's last, on which its last knot is, for beyond it 1/w may be anything. Returns its length, 1 to EL_MAX_PIECE:
  * u.q16 and v.q16 belong to its first pixel, the steps lead to the others. */
