@@ -117,6 +117,17 @@ static EL_SPECIALISED void el_texture_draw_tested(el_texture_brush *b, const el_
         draw_seen(b, planes, row, x, x_end, seen, &depth, kind);
     }
 }
+
+#if EL_WITH_SAMPLES
+/* The texel of a place in column x that has so much more of 1/w, u/w and v/w than the pixel's centre, Q32. */
+static EL_SPECIALISED uint32_t el_texture_texel_at(el_texture_brush *b, const el_perspective *planes, uint32_t x,
+                                                   const uint64_t wuv[3])
+{
+    el_texture_walk_point(&b->walk, planes, x, wuv);
+    el_texture_walk_last(&b->walk);
+    return el_texel_at(&b->texels.source, (uint32_t)b->walk.u.q16, (uint32_t)b->walk.v.q16);
+}
+#endif
 #endif
 
 #endif

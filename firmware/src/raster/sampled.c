@@ -15,10 +15,10 @@
 
 #if EL_WITH_SAMPLES
 
-/* Textures alone are drawn as without samples; other ways with a texture, and all in small code, by rows of any shading. */
+/* What fill_texture.c draws is drawn as without samples; in small code, as all else, by rows of any shading. */
 static inline bool is_textured(unsigned kind)
 {
-    return !EL_SMALL_CODE && (kind | EL_FILL_DEPTH) == (EL_FILL_TEXTURE | EL_FILL_DEPTH);
+    return !EL_SMALL_CODE && (kind & (EL_FILL_TEXTURE | EL_FILL_MIXED)) == EL_FILL_TEXTURE;
 }
 
 /* A sample's edges, from its next row on. */
@@ -41,7 +41,7 @@ typedef struct sampled {
     union {
         el_row_brush brush;
 #if !EL_SMALL_CODE
-        el_texture_brush texture_brush; /* of what is_textured; without its slopes */
+        el_texture_brush texture_brush; /* of what is_textured; its slopes are set for each row */
 #endif
 #if EL_WITH_MIXED
         el_mixed_brush mixed_brush; /* of EL_FILL_MIXED */
@@ -233,26 +233,23 @@ static EL_APART uint32_t draw_colour(sampled *s, const el_sampled_place *at, uin
 static EL_SPECIALISED uint32_t colour_at(sampled *s, const el_sampled_place *at, const el_values *v, uint32_t x,
                                          unsigned k, unsigned kind)
 {
+    el_values there = {0};
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        there.red = v->red + s->rgb_at[k][0];
+        there.green = v->green + s->rgb_at[k][1];
+        there.blue = v->blue + s->rgb_at[k][2];
+    }
 #if !EL_SMALL_CODE
     if (is_textured(kind)) {
-        el_texture_brush *const brush = &s->texture_brush;
-        el_texture_walk_point(&brush->walk, &s->triangle.perspective, x, s->wuv_at[k]);
-        el_texture_walk_last(&brush->walk);
-        return el_texel_at(&brush->texels.source, (uint32_t)brush->walk.u.q16, (uint32_t)brush->walk.v.q16);
+        const uint32_t texel = el_texture_texel_at(&s->texture_brush, &s->triangle.perspective, x, s->wuv_at[k]);
+        const uint32_t threshold_q16 = el_dither_threshold_q16(x, (uint32_t)s->triangle.y);
+        return (kind & EL_FILL_COLOURS) != 0 ? el_modulate(texel, &there, threshold_q16, kind) : texel;
     }
 #endif
     if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
         return draw_colour(s, at, x, k);
     }
-    if ((kind & EL_FILL_COLOURS) != 0) {
-        const el_values there = {
-            .red = v->red + s->rgb_at[k][0],
-            .green = v->green + s->rgb_at[k][1],
-            .blue = v->blue + s->rgb_at[k][2],
-        };
-        return el_coloured(&there);
-    }
-    return s->triangle.surface.colour;
+    return (kind & EL_FILL_COLOURS) != 0 ? el_coloured(&there) : s->triangle.surface.colour;
 }
 
 /* Gives samples of their own to a pixel that has none. */
@@ -386,6 +383,24 @@ static void spread_all(const el_sampled_place *at, uint32_t x, uint32_t x_end, u
     }
 }
 
+#if !EL_SMALL_CODE
+static EL_SPECIALISED void draw_textured_row(sampled *s, const el_sampled_place *at, const el_slopes *slopes,
+                                             uint32_t x, uint32_t x_end, unsigned kind)
+{
+    el_texture_brush *const brush = &s->texture_brush;
+    const el_perspective *const planes = &s->triangle.perspective;
+    if ((kind & EL_FILL_COLOURS) != 0) {
+        brush->slopes = *slopes;
+        brush->y = (uint32_t)s->triangle.y;
+    }
+    if ((kind & EL_FILL_DEPTH) != 0) {
+        el_texture_draw_tested(brush, planes, slopes, at->colour, at->depth, x, x_end, kind);
+    } else {
+        el_texture_draw_all(brush, planes, at->colour, x, x_end, kind);
+    }
+}
+#endif
+
 /* Pixels [x, x_end) of a row, one at least, covered as a whole. */
 static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, const el_slopes *slopes, uint32_t x,
                                       uint32_t x_end, unsigned kind)
@@ -400,11 +415,8 @@ static EL_SPECIALISED void draw_inner(sampled *s, const el_sampled_place *at, co
     } else
 #endif
 #if !EL_SMALL_CODE
-        if (is_textured(kind) && (kind & EL_FILL_DEPTH) != 0) {
-        el_texture_draw_tested(&s->texture_brush, &s->triangle.perspective, slopes, at->colour, at->depth, x, x_end,
-                               kind);
-    } else if (is_textured(kind)) {
-        el_texture_draw_all(&s->texture_brush, &s->triangle.perspective, at->colour, x, x_end, kind);
+        if (is_textured(kind)) {
+        draw_textured_row(s, at, slopes, x, x_end, kind);
     } else
 #endif
         if ((kind & (EL_FILL_TEXTURE | EL_FILL_DITHER)) != 0) {
