@@ -70,9 +70,8 @@ uint32_t el_texture_walk_piece(el_texture_walk *walk, uint32_t at, uint32_t most
 
 /* --- Texels: each is the number of the pixel that it is for ------------------------------------------------------- */
 
-void el_texel_line_draw(const el_texel_line *line, const el_texel_row *row, uint16_t *shown)
+static void fetch(const el_texel_row *row)
 {
-    (void)line;
     for (uint32_t i = 0; i < row->count; i++) {
         const uint32_t at = (row->u_q16 + i * row->u_step_q16) >> 16;
         if (at >= span_count) {
@@ -81,6 +80,20 @@ void el_texel_line_draw(const el_texel_line *line, const el_texel_row *row, uint
         }
         fetched[at]++;
         row->colour[i] = (uint16_t)(at * 37U + 5U);
+    }
+}
+
+void el_texel_line_draw_plain(const el_texel_line *line, const el_texel_row *row)
+{
+    (void)line;
+    fetch(row);
+}
+
+void el_texel_line_draw_other(el_texel_line *line, const el_texel_row *row, uint16_t *shown)
+{
+    (void)line;
+    fetch(row);
+    for (uint32_t i = 0; i < row->count; i++) {
         shown[i] = 200;
     }
 }
@@ -129,6 +142,7 @@ static int draw(const struct way *way)
     memset(&b, 0, sizeof b);
     b.way = way->way;
     b.kind = way->kind;
+    b.texels.way = EL_TEXELS_STRIPS; /* texels come with what of them shows */
     b.flat = 0xABCD;
     b.alpha = way->way == EL_MIXED_OPAQUE ? 256 : 100;
     b.slopes.first.z = 0;
