@@ -162,12 +162,12 @@ FRAMES: dict[str, tuple[str, dict[str, int]]] = {
     "room-4x": (
         "room with 4 samples per pixel",
         {
-            "cortex-m0plus": 66933631,
-            "cortex-m3": 30804615,
-            "cortex-m4f": 31038621,
-            "cortex-m7": 30610374,
-            "cortex-m33": 31085900,
-            "rv32imc": 34029972,
+            "cortex-m0plus": 46305820,
+            "cortex-m3": 21182114,
+            "cortex-m4f": 21173539,
+            "cortex-m7": 20961855,
+            "cortex-m33": 21255990,
+            "rv32imc": 24773499,
         },
     ),
     "S1-8x": (
