@@ -298,7 +298,7 @@ void el_texture_walk_begin(el_texture_walk *walk, const el_perspective *planes, 
 #if !EL_SMALL_CODE && EL_WITH_SAMPLES
 void el_texture_walk_point(el_texture_walk *walk, const el_perspective *planes, uint32_t x, const uint64_t wuv[3])
 {
-    find_of_w(walk, plane_at(&planes->w, x) + wuv[0] + EL_W_MARGIN_Q32);
+    find_of_w(walk, EL_W_MARGIN_Q32 + plane_at(&planes->w, x) + wuv[0]);
     walk->u.value = plane_at(&planes->u, x) + wuv[1];
     walk->v.value = plane_at(&planes->v, x) + wuv[2];
     find_first_knot(&walk->u, walk->w_shift, walk->reciprocal);
