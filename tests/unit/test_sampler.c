@@ -148,15 +148,21 @@ static uint32_t smooth_at(const el_texture *texture, int32_t u_q16, int32_t v_q1
     return (uint32_t)((sums[3] + 128) / 256);
 }
 
+/* Of the picture. */
+static el_texture any_texture(seeded *s)
+{
+    return (el_texture){.image = &p.image,
+                        .wrap_u = (uint8_t)any_below(s, 3),
+                        .wrap_v = (uint8_t)any_below(s, 3),
+                        .smooth = any_below(s, 2) == 0};
+}
+
 static void test_texels_of_every_kind(void)
 {
     uint32_t hidden = 0;
     for (seeded s = seeded_from(902); s.round < PART_OF(4000U); s.round++) {
         any_picture(&s);
-        const el_texture texture = {.image = &p.image,
-                                    .wrap_u = (uint8_t)any_below(&s, 3),
-                                    .wrap_v = (uint8_t)any_below(&s, 3),
-                                    .smooth = any_below(&s, 2) == 0};
+        const el_texture texture = any_texture(&s);
         el_sampler sampler;
         el_sampler_make(&sampler, &texture);
         for (unsigned i = 0; i < 40; i++) {
@@ -256,10 +262,7 @@ static void test_rows_stay_within_the_picture(void)
             const bool is_inside = i >= TEXELS && i < TEXELS + (uint32_t)p.image.width * p.image.height;
             memory[i] = is_inside ? INSIDE : OUTSIDE;
         }
-        const el_texture texture = {.image = &p.image,
-                                    .wrap_u = (uint8_t)any_below(&s, 3),
-                                    .wrap_v = (uint8_t)any_below(&s, 3),
-                                    .smooth = any_below(&s, 2) == 0};
+        const el_texture texture = any_texture(&s);
         el_sampler sampler;
         el_sampler_make(&sampler, &texture);
         el_texel_line line;
